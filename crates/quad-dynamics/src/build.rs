@@ -1,0 +1,514 @@
+//! From a vehicle's parameters to the models of levels 2 to 5 and the mechanistic vehicle.
+
+use crate::quadrotor::{CommandLimits, CurrentDraw, Quadrotor, QuadrotorState, RotorSet, SpinningRotors};
+use crate::vehicle::Vehicle;
+use crate::{
+    BuildError, Drag, Input, Level, ModelName, Phenomenon, PhenomenonSet, RigidBody, RigidBodyState,
+    RotorGeometry,
+};
+use nalgebra::{Matrix4, Vector3, Vector4};
+use quad_math::{Real, constant};
+use quad_rotor::{
+    Battery, ConstantVoltage, Cubic, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor, Motor,
+    NonLinearRotor, Propeller, RotorDynamics, RotorInput, RotorModel, Sag, SpinUp, Supply, ThrustState,
+};
+
+/// Rounds of `voltage → torque → current → voltage`. Internal resistance times the slope of the current
+/// contracts the error at least fivefold a round, so thirty leave rounding only.
+const VOLTAGE_ROUNDS: usize = 30;
+
+/// Secant steps for the yaw balance of hover; the torque is a smooth, nearly linear function of thrust.
+const YAW_ROUNDS: usize = 30;
+
+/// A rotor model with a place in the family.
+pub trait FamilyRotor<R: Real>: RotorModel<R> {
+    /// The supply that goes with it.
+    type Supply: FamilySupply<R>;
+
+    /// The level it makes; `None` for the mechanistic vehicle.
+    const LEVEL: Option<Level>;
+
+    /// The same rotor over `f64`, in which trims are solved.
+    type OverF64: FamilyRotor<f64>;
+
+    /// Whether its thrust depends on the battery voltage.
+    const FEELS_VOLTAGE: bool;
+
+    /// The rotor of a vehicle.
+    ///
+    /// # Errors
+    /// If the vehicle lacks a group of parameters.
+    fn of(vehicle: &Vehicle) -> Result<Self, BuildError>;
+
+    /// The supply of a vehicle, with or without voltage sag.
+    ///
+    /// # Errors
+    /// If the vehicle lacks a group of parameters.
+    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Self::Supply, BuildError>;
+
+    /// The rotor thrusts, N, where the model has them as its only states.
+    #[inline(always)]
+    fn measured_thrusts(_rotors: &[Self::State; 4]) -> Option<[R; 4]> {
+        None
+    }
+}
+
+/// A supply whose charge can be carried over to another level.
+pub trait FamilySupply<R: Real>: Supply<R> {
+    /// Charge drawn, Ah; zero for a stiff supply.
+    fn charge_drawn(state: &Self::State) -> R;
+
+    /// The state with this charge drawn, Ah.
+    fn with_charge_drawn(charge_drawn: R) -> Self::State;
+}
+
+impl<R: Real> RigidBody<R> {
+    /// The rigid body of a vehicle.
+    pub fn of(vehicle: &Vehicle) -> Self {
+        let airframe = &vehicle.airframe;
+        // A validated vehicle has a positive definite inertia; an unvalidated one gets NaN, not a panic.
+        let inverse = airframe
+            .inertia
+            .try_inverse()
+            .unwrap_or_else(|| airframe.inertia.map(|_| f64::NAN));
+        Self {
+            mass: constant(airframe.mass),
+            inertia: airframe.inertia.map(constant),
+            inertia_inverse: inverse.map(constant),
+            gravity: constant(vehicle.environment.gravity),
+        }
+    }
+}
+
+impl<R: Real> RotorGeometry<R> {
+    /// Where the rotors of a vehicle sit, relative to its centre of mass.
+    pub fn of(vehicle: &Vehicle) -> Self {
+        let rotor = |f: fn(&crate::vehicle::RotorMount) -> f64| {
+            std::array::from_fn(|i| constant(f(&vehicle.rotors[i])))
+        };
+        Self {
+            forward: rotor(|r| r.position.x),
+            right: rotor(|r| r.position.y),
+            spin: rotor(|r| r.spin.sign()),
+        }
+    }
+}
+
+impl<R: Real> CommandLimits<R> {
+    /// The limits of a vehicle's zeroed commands.
+    pub fn of(vehicle: &Vehicle) -> Self {
+        let range = vehicle.zeroed_range();
+        Self {
+            minimum: constant(*range.start()),
+            maximum: constant(*range.end()),
+        }
+    }
+}
+
+impl<R: Real> RotorSet<R, IdealRotor<R>, ConstantVoltage<R>> {
+    /// Ideal rotors, as levels 1 and 2 have them.
+    pub(crate) fn linear(vehicle: &Vehicle, limits: Option<CommandLimits<R>>) -> Self {
+        Self {
+            rotors: [ideal(vehicle); 4],
+            geometry: RotorGeometry::of(vehicle),
+            supply: stiff(vehicle),
+            limits,
+            current_draw: None,
+        }
+    }
+}
+
+impl<R: Real, M: RotorModel<R>, S: Supply<R>> RotorSet<R, M, S> {
+    /// Everything at rest under a constant input, with a full supply.
+    pub(crate) fn at_rest(&self, input: &Input<R>) -> QuadrotorState<R, M::State, S::State> {
+        let supply = self.supply.full();
+        let commands = self.limited(&input.commands);
+        let settled = |voltage: R| -> [M::State; 4] {
+            std::array::from_fn(|i| {
+                self.rotors[i].equilibrium(&RotorInput {
+                    command: commands[i],
+                    voltage,
+                })
+            })
+        };
+        let mut rotors = settled(self.supply.voltage(&supply, R::zero()));
+        if self.current_draw.is_some() {
+            for _ in 0..VOLTAGE_ROUNDS {
+                rotors = settled(self.rotor_inputs(&rotors, &supply, input).1[0].voltage);
+            }
+        }
+        QuadrotorState {
+            body: RigidBodyState::at_rest(Vector3::zeros(), R::zero()),
+            rotors,
+            supply,
+        }
+    }
+}
+
+impl<M: RotorModel<f64>, S: Supply<f64>> RotorSet<f64, M, S> {
+    /// Zeroed commands that hold hover: thrust equals weight, no moment about any axis.
+    pub(crate) fn hover_commands(
+        &self,
+        vehicle: &Vehicle,
+        model: ModelName,
+        within_limits: bool,
+    ) -> Result<[f64; 4], BuildError> {
+        let g = &self.geometry;
+        let rows = Matrix4::from_fn(|row, i| match row {
+            0 => 1.0,
+            1 => -g.right[i],
+            2 => g.forward[i],
+            _ => -g.spin[i],
+        });
+        // Thrusts that carry the weight without roll and pitch, with a free part `yaw` that only twists.
+        let inverse = rows.try_inverse().unwrap_or_else(|| rows.map(|_| f64::NAN));
+        let commands_for = |yaw: f64| {
+            let thrusts = inverse * Vector4::new(vehicle.weight(), 0.0, 0.0, yaw);
+            self.settled_commands(&thrusts)
+        };
+        let yaw_moment = |yaw: f64| {
+            let commands = commands_for(yaw);
+            let state = self.at_rest(&Input::still_air(commands));
+            let (_, inputs) = self.rotor_inputs(&state.rotors, &state.supply, &Input::still_air(commands));
+            crate::forces::sum_of_four(|i| {
+                -g.spin[i] * self.rotors[i].output(&state.rotors[i], &inputs[i]).torque
+            })
+        };
+        let commands = commands_for(root_by_secant(yaw_moment, vehicle.weight()));
+        check_hover(vehicle, model, within_limits, commands)
+    }
+
+    /// Zeroed commands that give these steady thrusts, N, with the voltage that they leave.
+    fn settled_commands(&self, thrusts: &Vector4<f64>) -> [f64; 4] {
+        let supply = self.supply.full();
+        let mut voltage = self.supply.voltage(&supply, 0.0);
+        let commands_at =
+            |voltage| std::array::from_fn(|i| self.rotors[i].command_for_thrust(thrusts[i], voltage));
+        for _ in 0..VOLTAGE_ROUNDS {
+            let commands: [f64; 4] = commands_at(voltage);
+            let rotors: [M::State; 4] = std::array::from_fn(|i| {
+                self.rotors[i].equilibrium(&RotorInput {
+                    command: commands[i],
+                    voltage,
+                })
+            });
+            let current = self
+                .current_draw
+                .as_ref()
+                .map_or(0.0, |d| self.current(d, &rotors, &commands));
+            voltage = self.supply.voltage(&supply, current);
+        }
+        commands_at(voltage)
+    }
+}
+
+/// The root of a nearly linear function near zero, by the secant method; `scale` is the size of a step
+/// worth taking.
+fn root_by_secant(f: impl Fn(f64) -> f64, scale: f64) -> f64 {
+    let (mut a, mut b) = (0.0, 1e-3 * scale);
+    let (mut f_a, mut f_b) = (f(a), f(b));
+    if f_a == 0.0 {
+        return a;
+    }
+    for _ in 0..YAW_ROUNDS {
+        if f_b == f_a {
+            break;
+        }
+        let c = b - f_b * (b - a) / (f_b - f_a);
+        (a, f_a) = (b, f_b);
+        (b, f_b) = (c, f(c));
+    }
+    b
+}
+
+fn check_hover(
+    vehicle: &Vehicle,
+    model: ModelName,
+    within_limits: bool,
+    commands: [f64; 4],
+) -> Result<[f64; 4], BuildError> {
+    let range = vehicle.zeroed_range();
+    for (i, &command) in commands.iter().enumerate() {
+        if !command.is_finite() || (within_limits && !range.contains(&command)) {
+            return Err(BuildError::HoverOutOfRange {
+                vehicle: vehicle.name.clone(),
+                model,
+                rotor: i + 1,
+                command: command + vehicle.pwm.zero_thrust,
+                minimum: vehicle.pwm.minimum,
+                maximum: vehicle.pwm.maximum,
+            });
+        }
+    }
+    Ok(commands)
+}
+
+/// Whether a rotor model meets what a phenomenon needs (the rigid body is non-linear here).
+fn is_met<R: Real, M: FamilyRotor<R>>(phenomenon: Phenomenon) -> bool {
+    match phenomenon {
+        Phenomenon::Drag | Phenomenon::InputLimits | Phenomenon::GyroscopicTorque => true,
+        Phenomenon::SpinUpReaction => M::SPIN_UP == SpinUp::Separate,
+        Phenomenon::VoltageSag => M::FEELS_VOLTAGE,
+    }
+}
+
+pub(crate) fn quadrotor<R, M, S>(
+    vehicle: &Vehicle,
+    phenomena: &PhenomenonSet,
+) -> Result<Quadrotor<R, M, S>, BuildError>
+where
+    R: Real,
+    M: FamilyRotor<R, Supply = S>,
+    S: FamilySupply<R>,
+{
+    let model = ModelName(M::LEVEL);
+    for &phenomenon in &phenomena.0 {
+        if !is_met::<R, M>(phenomenon) {
+            let prerequisite = phenomenon.prerequisite();
+            return Err(BuildError::UnmetPrerequisite {
+                model,
+                phenomenon,
+                prerequisite,
+            });
+        }
+    }
+    let has = |phenomenon| phenomena.contains(phenomenon);
+    let trimmed = rotor_set::<f64, M::OverF64>(vehicle, phenomena)?;
+    let hover = trimmed.hover_commands(vehicle, model, has(Phenomenon::InputLimits))?;
+    Ok(Quadrotor {
+        body: RigidBody::of(vehicle),
+        rotor_set: rotor_set::<R, M>(vehicle, phenomena)?,
+        drag: has(Phenomenon::Drag).then(|| drag(vehicle)).transpose()?,
+        spinning: spinning(vehicle, phenomena)?,
+        phenomena: phenomena.clone(),
+        hover_commands: hover.map(constant),
+    })
+}
+
+fn rotor_set<R: Real, M: FamilyRotor<R>>(
+    vehicle: &Vehicle,
+    phenomena: &PhenomenonSet,
+) -> Result<RotorSet<R, M, M::Supply>, BuildError> {
+    let sag = phenomena.contains(Phenomenon::VoltageSag);
+    Ok(RotorSet {
+        rotors: [M::of(vehicle)?; 4],
+        geometry: RotorGeometry::of(vehicle),
+        supply: M::supply(vehicle, sag)?,
+        limits: phenomena
+            .contains(Phenomenon::InputLimits)
+            .then(|| CommandLimits::of(vehicle)),
+        current_draw: sag.then(|| current_draw(vehicle)).transpose()?,
+    })
+}
+
+fn drag<R: Real>(vehicle: &Vehicle) -> Result<Drag<R>, BuildError> {
+    let drag = vehicle.require_drag("the phenomenon drag")?;
+    Ok(Drag {
+        quadratic: drag.quadratic.map(constant),
+        rate_damping: drag.rate_damping.map(constant),
+    })
+}
+
+fn spinning<R: Real>(
+    vehicle: &Vehicle,
+    phenomena: &PhenomenonSet,
+) -> Result<Option<SpinningRotors<R>>, BuildError> {
+    let gyroscopic_torque = phenomena.contains(Phenomenon::GyroscopicTorque);
+    let spin_up_reaction = phenomena.contains(Phenomenon::SpinUpReaction);
+    if !gyroscopic_torque && !spin_up_reaction {
+        return Ok(None);
+    }
+    let needed_by = "gyroscopic torque or spin-up reaction";
+    Ok(Some(SpinningRotors {
+        propeller: propeller(vehicle, needed_by)?,
+        inertia: constant(vehicle.require_motor(needed_by)?.rotor_inertia),
+        gyroscopic_torque,
+        spin_up_reaction,
+    }))
+}
+
+fn current_draw<R: Real>(vehicle: &Vehicle) -> Result<CurrentDraw<R>, BuildError> {
+    let motor = vehicle.require_motor("the phenomenon voltage-sag")?;
+    Ok(CurrentDraw {
+        velocity_constant: constant(motor.velocity_constant),
+        no_load_current: constant(motor.no_load_current),
+        full_voltage_duty: constant(motor.full_voltage_duty),
+        zero_thrust_offset: zero_thrust_offset(vehicle),
+    })
+}
+
+fn zero_thrust_offset<R: Real>(vehicle: &Vehicle) -> R {
+    constant(vehicle.pwm.zero_thrust - vehicle.pwm.minimum)
+}
+
+fn propeller<R: Real>(vehicle: &Vehicle, needed_by: &'static str) -> Result<Propeller<R>, BuildError> {
+    let p = vehicle.require_propeller(needed_by)?;
+    Ok(Propeller::from_coefficients(
+        constant(p.thrust_coefficient),
+        constant(p.torque_coefficient),
+        constant(p.diameter),
+        constant(vehicle.environment.air_density),
+    ))
+}
+
+fn ideal<R: Real>(vehicle: &Vehicle) -> IdealRotor<R> {
+    let gains = &vehicle.linear_rotor;
+    IdealRotor {
+        thrust_gain: constant(gains.thrust_gain),
+        torque_gain: constant(gains.torque_gain),
+    }
+}
+
+/// The constant supply of levels 1 to 4, whose rotors don't look at the voltage: nominal, or 1 V where
+/// the vehicle names no battery.
+fn stiff<R: Real>(vehicle: &Vehicle) -> ConstantVoltage<R> {
+    ConstantVoltage {
+        voltage: constant(vehicle.battery.as_ref().map_or(1.0, |b| b.nominal_voltage)),
+    }
+}
+
+fn battery<R: Real>(vehicle: &Vehicle, sag: bool, needed_by: &'static str) -> Result<Battery<R>, BuildError> {
+    let b = vehicle.require_battery(needed_by)?;
+    let sag = sag.then(|| Sag {
+        full_voltage: constant(b.full_voltage),
+        internal_resistance: constant(b.internal_resistance),
+        exponential_amplitude: constant(b.exponential_amplitude),
+        exponential_rate: constant(b.exponential_rate),
+    });
+    Ok(Battery {
+        nominal_voltage: constant(b.nominal_voltage),
+        sag,
+    })
+}
+
+fn dynamics<R: Real>(vehicle: &Vehicle, needed_by: &'static str) -> Result<RotorDynamics<R>, BuildError> {
+    let d = vehicle.require_rotor_dynamics(needed_by)?;
+    Ok(RotorDynamics {
+        thrust_c1: constant(d.thrust_c1),
+        thrust_c2: constant(d.thrust_c2),
+        torque_c1: constant(d.torque_c1),
+        torque_c2: constant(d.torque_c2),
+        torque_c3: constant(d.torque_c3),
+        torque_c4: constant(d.torque_c4),
+    })
+}
+
+fn cubic<R: Real>([k1, k2, k3]: [f64; 3]) -> Cubic<R> {
+    Cubic {
+        k1: constant(k1),
+        k2: constant(k2),
+        k3: constant(k3),
+    }
+}
+
+impl<R: Real> FamilyRotor<R> for IdealRotor<R> {
+    type Supply = ConstantVoltage<R>;
+    type OverF64 = IdealRotor<f64>;
+    const LEVEL: Option<Level> = Some(Level::Two);
+    const FEELS_VOLTAGE: bool = false;
+
+    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+        Ok(ideal(vehicle))
+    }
+
+    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
+        Ok(stiff(vehicle))
+    }
+}
+
+impl<R: Real> FamilyRotor<R> for FirstOrderRotor<R> {
+    type Supply = ConstantVoltage<R>;
+    type OverF64 = FirstOrderRotor<f64>;
+    const LEVEL: Option<Level> = Some(Level::Three);
+    const FEELS_VOLTAGE: bool = false;
+
+    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+        let gains = &vehicle.linear_rotor;
+        Ok(Self {
+            thrust_gain: constant(gains.thrust_gain),
+            torque_per_thrust: constant(gains.torque_gain / gains.thrust_gain),
+            bandwidth: constant(gains.bandwidth),
+        })
+    }
+
+    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
+        Ok(stiff(vehicle))
+    }
+
+    #[inline(always)]
+    fn measured_thrusts(rotors: &[ThrustState<R>; 4]) -> Option<[R; 4]> {
+        Some(rotors.map(|r| r.thrust))
+    }
+}
+
+impl<R: Real> FamilyRotor<R> for LinearRotor<R> {
+    type Supply = ConstantVoltage<R>;
+    type OverF64 = LinearRotor<f64>;
+    const LEVEL: Option<Level> = Some(Level::Four);
+    const FEELS_VOLTAGE: bool = false;
+
+    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+        let IdealRotor {
+            thrust_gain,
+            torque_gain,
+        } = ideal(vehicle);
+        Ok(Self {
+            thrust_gain,
+            torque_gain,
+            dynamics: dynamics(vehicle, "level 4")?,
+        })
+    }
+
+    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
+        Ok(stiff(vehicle))
+    }
+}
+
+impl<R: Real> FamilyRotor<R> for NonLinearRotor<R> {
+    type Supply = Battery<R>;
+    type OverF64 = NonLinearRotor<f64>;
+    const LEVEL: Option<Level> = Some(Level::Five);
+    const FEELS_VOLTAGE: bool = true;
+
+    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+        let polynomial = vehicle.require_polynomial_rotor("level 5")?;
+        Ok(Self {
+            thrust: cubic(polynomial.thrust),
+            torque: cubic(polynomial.torque),
+            zero_thrust_offset: zero_thrust_offset(vehicle),
+            dynamics: dynamics(vehicle, "level 5")?,
+        })
+    }
+
+    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Battery<R>, BuildError> {
+        battery(vehicle, sag, "level 5")
+    }
+}
+
+impl<R: Real> FamilyRotor<R> for MechanisticRotor<R> {
+    type Supply = Battery<R>;
+    type OverF64 = MechanisticRotor<f64>;
+    const LEVEL: Option<Level> = None;
+    const FEELS_VOLTAGE: bool = true;
+
+    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+        let needed_by = "the mechanistic vehicle";
+        let m = vehicle.require_motor(needed_by)?;
+        Ok(Self {
+            propeller: propeller(vehicle, needed_by)?,
+            motor: Motor {
+                velocity_constant: constant(m.velocity_constant),
+                resistance: constant(m.resistance),
+                no_load_current: constant(m.no_load_current),
+                controller_lag: constant(m.controller_lag),
+                full_voltage_duty: constant(m.full_voltage_duty),
+            },
+            inertia: constant(m.rotor_inertia),
+            zero_thrust_offset: zero_thrust_offset(vehicle),
+        })
+    }
+
+    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Battery<R>, BuildError> {
+        battery(vehicle, sag, "the mechanistic vehicle")
+    }
+}

@@ -1,0 +1,52 @@
+//! Why a model can't be built.
+
+use crate::{Level, Phenomenon, Prerequisite, VehicleError};
+
+/// Why a vehicle can't be flown at a level with the phenomena asked for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    /// The vehicle lacks parameters.
+    #[error(transparent)]
+    Vehicle(#[from] VehicleError),
+    /// A phenomenon needs something that the model doesn't have.
+    #[error("{model} can't have {phenomenon}: it needs {prerequisite}")]
+    UnmetPrerequisite {
+        /// The model that was to have it.
+        model: ModelName,
+        /// The phenomenon.
+        phenomenon: Phenomenon,
+        /// What it needs.
+        prerequisite: Prerequisite,
+    },
+    /// The commands that would hold hover lie outside the vehicle's PWM range.
+    #[error(
+        "{vehicle} can't hover at {model}: rotor {rotor} needs raw PWM {command:.4}, the range is {minimum} to {maximum}"
+    )]
+    HoverOutOfRange {
+        /// The vehicle's name.
+        vehicle: String,
+        /// The model.
+        model: ModelName,
+        /// The rotor, counted from 1.
+        rotor: usize,
+        /// Raw PWM that hover needs; NaN if the rotor model has no answer.
+        command: f64,
+        /// Bottom of the raw PWM range.
+        minimum: f64,
+        /// Top of the raw PWM range.
+        maximum: f64,
+    },
+}
+
+/// How messages name a model: its level, or the mechanistic vehicle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ModelName(pub Option<Level>);
+
+impl std::fmt::Display for ModelName {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Some(level) => level.fmt(f),
+            None => f.write_str("the mechanistic vehicle"),
+        }
+    }
+}

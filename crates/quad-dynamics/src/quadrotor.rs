@@ -1,0 +1,420 @@
+//! Levels 2 to 5: one rigid body, four rotors of some model, and parts that switch on and off.
+//!
+//! One text serves four levels and the mechanistic vehicle, since they differ in their rotor model:
+//!
+//! ```text
+//! voltage       V_b = supply(charge, Σ current)
+//! rotors        ẋ_i = rotor(x_i, u_i, V_b) → T_i, Q_i
+//! wrench        F = −Σ T_i e_z + drag,  M = Σ r_i × T_i + Σ −s_i Q_i e_z + damping + gyroscopic + spin-up
+//! rigid body    Newton-Euler
+//! ```
+//!
+//! Source: thesis chapters 3.3 to 3.6 and 5.3.
+
+use crate::forces::sum_of_four;
+use crate::model::RotorSnapshot;
+use crate::{
+    BuildError, Drag, Flight, Hover, Input, Level, PhenomenonSet, QuadrotorModel,
+    RigidBody, RigidBodyRate, RigidBodyState, RotorGeometry, Snapshot, Vehicle, gyroscopic_torque,
+};
+use nalgebra::Vector3;
+use quad_math::{Flat, Rate, RateOf, Real, State, System};
+use quad_rotor::{
+    Battery, BatteryState, ConstantVoltage, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor,
+    NonLinearRotor, Propeller, RotorInput, RotorModel, RotorOutput, Supply,
+};
+
+/// Level 2: non-linear rigid body, ideal rotors.
+pub type Level2<R> = Quadrotor<R, IdealRotor<R>, ConstantVoltage<R>>;
+/// Level 3: non-linear rigid body, first-order rotors.
+pub type Level3<R> = Quadrotor<R, FirstOrderRotor<R>, ConstantVoltage<R>>;
+/// Level 4: non-linear rigid body, identified linear rotors.
+pub type Level4<R> = Quadrotor<R, LinearRotor<R>, ConstantVoltage<R>>;
+/// Level 5: non-linear rigid body, identified non-linear rotors on a battery.
+pub type Level5<R> = Quadrotor<R, NonLinearRotor<R>, Battery<R>>;
+/// The mechanistic vehicle: motors and propellers from first principles, on a battery.
+pub type MechanisticQuadrotor<R> = Quadrotor<R, MechanisticRotor<R>, Battery<R>>;
+
+/// Limits on the zeroed commands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CommandLimits<R: Real> {
+    /// `ū_min − ū_0`.
+    pub minimum: R,
+    /// `ū_max − ū_0`.
+    pub maximum: R,
+}
+
+/// How much current a motor draws, from its torque and its duty: `I = d (K_v Q + I_0)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurrentDraw<R: Real> {
+    /// Speed constant `K_v`, rad/(s V).
+    pub velocity_constant: R,
+    /// No-load current `I_0`, A.
+    pub no_load_current: R,
+    /// Duty for full voltage.
+    pub full_voltage_duty: R,
+    /// `ū_0 − ū_min`.
+    pub zero_thrust_offset: R,
+}
+
+/// What the spinning rotors do to the airframe beside their torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpinningRotors<R: Real> {
+    /// The propeller's static law, for speeds that the rotor model has no state for.
+    pub propeller: Propeller<R>,
+    /// Inertia `I_R` of one rotor about its axis, kg m².
+    pub inertia: R,
+    /// Whether the gyroscopic torque acts.
+    pub gyroscopic_torque: bool,
+    /// Whether the reaction to spin acceleration acts.
+    pub spin_up_reaction: bool,
+}
+
+/// Four rotors, where they sit, and what feeds and limits them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotorSet<R: Real, M, S> {
+    /// The rotors.
+    pub rotors: [M; 4],
+    /// Where they act.
+    pub geometry: RotorGeometry<R>,
+    /// What feeds them.
+    pub supply: S,
+    /// Limits on the commands; `None` is off.
+    pub limits: Option<CommandLimits<R>>,
+    /// The current they draw; `None` is off.
+    pub current_draw: Option<CurrentDraw<R>>,
+}
+
+/// A quadrotor with rotor model `M` on supply `S`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quadrotor<R: Real, M, S> {
+    /// Mass properties and gravity.
+    pub body: RigidBody<R>,
+    /// The rotors.
+    pub rotor_set: RotorSet<R, M, S>,
+    /// Drag; `None` is off.
+    pub drag: Option<Drag<R>>,
+    /// Gyroscopic torque and spin-up reaction; `None` is off.
+    pub spinning: Option<SpinningRotors<R>>,
+    pub(crate) phenomena: PhenomenonSet,
+    pub(crate) hover_commands: [R; 4],
+}
+
+/// State of a quadrotor: body, four rotors, supply.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QuadrotorState<R: Real, X, Y> {
+    /// The rigid body.
+    pub body: RigidBodyState<R>,
+    /// The rotors.
+    pub rotors: [X; 4],
+    /// The supply.
+    pub supply: Y,
+}
+
+/// Rate of [`QuadrotorState`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct QuadrotorRate<R: Real, X, Y> {
+    /// The rigid body's.
+    pub body: RigidBodyRate<R>,
+    /// The rotors'.
+    pub rotors: [X; 4],
+    /// The supply's.
+    pub supply: Y,
+}
+
+impl<R: Real, M: RotorModel<R>, S: Supply<R>> RotorSet<R, M, S> {
+    /// The commands within the limits; unchanged where limits are off.
+    #[inline(always)]
+    pub fn limited(&self, commands: &[R; 4]) -> [R; 4] {
+        match &self.limits {
+            Some(l) => commands.map(|u| u.simd_clamp(l.minimum, l.maximum)),
+            None => *commands,
+        }
+    }
+
+    /// Battery current, A: `Σ d_i (K_v Q_i + I_0)`, with duty and current not below zero (kinks there).
+    #[inline(always)]
+    pub(crate) fn current(&self, draw: &CurrentDraw<R>, rotors: &[M::State; 4], commands: &[R; 4]) -> R {
+        sum_of_four(|i| {
+            let input = RotorInput {
+                command: commands[i],
+                voltage: R::zero(),
+            };
+            let torque = self.rotors[i].output(&rotors[i], &input).torque;
+            let current = torque * draw.velocity_constant + draw.no_load_current;
+            let duty = (commands[i] + draw.zero_thrust_offset) / draw.full_voltage_duty;
+            current.simd_max(R::zero()) * duty.simd_max(R::zero())
+        })
+    }
+
+    /// Supply current, A, and the inputs of the four rotors, limits and voltage applied.
+    #[inline(always)]
+    pub fn rotor_inputs(
+        &self,
+        rotors: &[M::State; 4],
+        supply: &S::State,
+        input: &Input<R>,
+    ) -> (R, [RotorInput<R>; 4]) {
+        let commands = self.limited(&input.commands);
+        let current = match &self.current_draw {
+            Some(draw) => self.current(draw, rotors, &commands),
+            None => R::zero(),
+        };
+        let voltage = self.supply.voltage(supply, current);
+        (current, commands.map(|command| RotorInput { command, voltage }))
+    }
+}
+
+impl<R: Real, M: RotorModel<R>, S: Supply<R>> Quadrotor<R, M, S> {
+    /// Force and moment of everything but gravity, along B, at a state with these rotor inputs.
+    #[inline(always)]
+    pub fn wrench(
+        &self,
+        state: &QuadrotorState<R, M::State, S::State>,
+        inputs: &[RotorInput<R>; 4],
+        wind: &Vector3<R>,
+    ) -> crate::Wrench<R> {
+        let set = &self.rotor_set;
+        let outputs: [RotorOutput<R>; 4] =
+            std::array::from_fn(|i| set.rotors[i].output(&state.rotors[i], &inputs[i]));
+        let mut wrench = set.geometry.wrench(&outputs);
+        if let Some(drag) = &self.drag {
+            let wind_b = state.body.attitude.conjugate().rotate(wind);
+            let extra = drag.wrench(&(state.body.velocity - wind_b), &state.body.body_rates);
+            wrench.force += extra.force;
+            wrench.moment += extra.moment;
+        }
+        if let Some(spinning) = &self.spinning {
+            wrench.moment += self.spin_moment(spinning, state, inputs, &outputs);
+        }
+        wrench
+    }
+
+    /// Gyroscopic torque and spin-up reaction `−Σ s_i I_R Ω̇_i e_z`, N m along B.
+    #[inline(always)]
+    fn spin_moment(
+        &self,
+        spinning: &SpinningRotors<R>,
+        state: &QuadrotorState<R, M::State, S::State>,
+        inputs: &[RotorInput<R>; 4],
+        outputs: &[RotorOutput<R>; 4],
+    ) -> Vector3<R> {
+        let set = &self.rotor_set;
+        let speeds: [R; 4] = std::array::from_fn(|i| {
+            set.rotors[i].speed(&state.rotors[i], outputs[i].thrust, &spinning.propeller)
+        });
+        let mut moment = Vector3::zeros();
+        if spinning.gyroscopic_torque {
+            let momentum = sum_of_four(|i| set.geometry.spin[i] * speeds[i]) * spinning.inertia;
+            moment += gyroscopic_torque(&state.body.body_rates, momentum);
+        }
+        if spinning.spin_up_reaction {
+            moment.z -= spinning.inertia
+                * sum_of_four(|i| {
+                    let thrust_rate = set.rotors[i].output_rate(&state.rotors[i], &inputs[i]).thrust;
+                    set.geometry.spin[i]
+                        * spinning
+                            .propeller
+                            .speed_rate_for_thrust_rate(speeds[i], thrust_rate)
+                });
+        }
+        moment
+    }
+}
+
+impl<R: Real, M: RotorModel<R>, S: Supply<R>> System<R> for Quadrotor<R, M, S> {
+    type State = QuadrotorState<R, M::State, S::State>;
+    type Input = Input<R>;
+
+    #[inline(always)]
+    fn derivative(&self, state: &Self::State, input: &Input<R>) -> RateOf<R, Self> {
+        let set = &self.rotor_set;
+        let (current, inputs) = set.rotor_inputs(&state.rotors, &state.supply, input);
+        QuadrotorRate {
+            body: self
+                .body
+                .derivative(&state.body, &self.wrench(state, &inputs, &input.wind)),
+            rotors: std::array::from_fn(|i| set.rotors[i].derivative(&state.rotors[i], &inputs[i])),
+            supply: set.supply.derivative(&state.supply, current),
+        }
+    }
+}
+
+impl<R, M, S> QuadrotorModel<R> for Quadrotor<R, M, S>
+where
+    R: Real,
+    M: crate::build::FamilyRotor<R, Supply = S>,
+    S: crate::build::FamilySupply<R>,
+{
+    const LEVEL: Option<Level> = M::LEVEL;
+
+    fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError> {
+        crate::build::quadrotor(vehicle, phenomena)
+    }
+
+    #[inline(always)]
+    fn flight(&self, state: &Self::State) -> Flight<R> {
+        let body = &state.body;
+        let rotation = body.attitude.rotation();
+        Flight {
+            position: body.position,
+            velocity: rotation.matrix * body.velocity,
+            attitude: rotation.euler_angles(),
+            rotation,
+            body_rates: body.body_rates,
+            thrusts: M::measured_thrusts(&state.rotors),
+        }
+    }
+
+    fn snapshot(&self, state: &Self::State, input: &Input<R>) -> Snapshot<R> {
+        let set = &self.rotor_set;
+        let (_, inputs) = set.rotor_inputs(&state.rotors, &state.supply, input);
+        Snapshot {
+            body: state.body,
+            rotors: std::array::from_fn(|i| RotorSnapshot {
+                output: set.rotors[i].output(&state.rotors[i], &inputs[i]),
+                rate: set.rotors[i].output_rate(&state.rotors[i], &inputs[i]),
+            }),
+            charge_drawn: S::charge_drawn(&state.supply),
+        }
+    }
+
+    fn adopt(&self, snapshot: &Snapshot<R>, input: &Input<R>) -> Self::State {
+        let set = &self.rotor_set;
+        let supply = S::with_charge_drawn(snapshot.charge_drawn);
+        let adopted = |inputs: &[RotorInput<R>; 4]| {
+            std::array::from_fn(|i| {
+                let rotor = &snapshot.rotors[i];
+                set.rotors[i].state_for_output(&rotor.output, &rotor.rate, &inputs[i])
+            })
+        };
+        // The voltage needs the torque, which every adopted state keeps whatever the voltage.
+        let commands = set.limited(&input.commands);
+        let rotors = adopted(&commands.map(|command| RotorInput {
+            command,
+            voltage: R::one(),
+        }));
+        let (_, inputs) = set.rotor_inputs(&rotors, &supply, input);
+        QuadrotorState {
+            body: snapshot.body,
+            rotors: adopted(&inputs),
+            supply,
+        }
+    }
+
+    fn hover(&self, position: Vector3<R>, yaw: R) -> Hover<Self::State, R> {
+        let input = Input::still_air(self.hover_commands);
+        let state = self.rotor_set.at_rest(&input);
+        Hover {
+            state: QuadrotorState {
+                body: RigidBodyState::at_rest(position, yaw),
+                ..state
+            },
+            input,
+        }
+    }
+
+    fn phenomena(&self) -> &PhenomenonSet {
+        &self.phenomena
+    }
+}
+
+impl<R: Real, X: State<R>, Y: State<R>> State<R> for QuadrotorState<R, X, Y> {
+    type Rate = QuadrotorRate<R, X::Rate, Y::Rate>;
+
+    #[inline(always)]
+    fn advanced(&self, h: R, rate: &Self::Rate) -> Self {
+        Self {
+            body: self.body.advanced(h, &rate.body),
+            rotors: self.rotors.advanced(h, &rate.rotors),
+            supply: self.supply.advanced(h, &rate.supply),
+        }
+    }
+
+    #[inline(always)]
+    fn normalised(self) -> Self {
+        Self {
+            body: self.body.normalised(),
+            rotors: self.rotors.normalised(),
+            supply: self.supply.normalised(),
+        }
+    }
+}
+
+impl<R: Real, X: Rate<R>, Y: Rate<R>> Rate<R> for QuadrotorRate<R, X, Y> {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self {
+            body: RigidBodyRate::zero(),
+            rotors: [X::zero(); 4],
+            supply: Y::zero(),
+        }
+    }
+
+    #[inline(always)]
+    fn add_scaled(&self, h: R, other: &Self) -> Self {
+        Self {
+            body: self.body.add_scaled(h, &other.body),
+            rotors: self.rotors.add_scaled(h, &other.rotors),
+            supply: self.supply.add_scaled(h, &other.supply),
+        }
+    }
+}
+
+impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorState<R, X, Y> {
+    const LEN: usize = RigidBodyState::<R>::LEN + 4 * X::LEN + Y::LEN;
+
+    fn write(&self, out: &mut [R]) {
+        self.body.write(out);
+        self.rotors.write(&mut out[RigidBodyState::<R>::LEN..]);
+        self.supply
+            .write(&mut out[RigidBodyState::<R>::LEN + 4 * X::LEN..]);
+    }
+
+    fn read(values: &[R]) -> Self {
+        Self {
+            body: RigidBodyState::read(values),
+            rotors: Flat::read(&values[RigidBodyState::<R>::LEN..]),
+            supply: Y::read(&values[RigidBodyState::<R>::LEN + 4 * X::LEN..]),
+        }
+    }
+}
+
+impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorRate<R, X, Y> {
+    const LEN: usize = RigidBodyRate::<R>::LEN + 4 * X::LEN + Y::LEN;
+
+    fn write(&self, out: &mut [R]) {
+        self.body.write(out);
+        self.rotors.write(&mut out[RigidBodyRate::<R>::LEN..]);
+        self.supply
+            .write(&mut out[RigidBodyRate::<R>::LEN + 4 * X::LEN..]);
+    }
+
+    fn read(values: &[R]) -> Self {
+        Self {
+            body: RigidBodyRate::read(values),
+            rotors: Flat::read(&values[RigidBodyRate::<R>::LEN..]),
+            supply: Y::read(&values[RigidBodyRate::<R>::LEN + 4 * X::LEN..]),
+        }
+    }
+}
+
+/// The charge drawn lives in the battery's state.
+impl<R: Real> crate::build::FamilySupply<R> for Battery<R> {
+    fn charge_drawn(state: &BatteryState<R>) -> R {
+        state.charge_drawn
+    }
+
+    fn with_charge_drawn(charge_drawn: R) -> BatteryState<R> {
+        BatteryState { charge_drawn }
+    }
+}
+
+/// A stiff supply has no charge to remember.
+impl<R: Real> crate::build::FamilySupply<R> for ConstantVoltage<R> {
+    fn charge_drawn((): &()) -> R {
+        R::zero()
+    }
+
+    fn with_charge_drawn(_charge_drawn: R) {}
+}

@@ -1,0 +1,133 @@
+//! What follows from a vehicle's parameters by a formula of one line.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Matrix4;
+
+use super::{
+    BatteryParameters, DragParameters, MotorParameters, PolynomialRotorParameters, PropellerParameters,
+    RotorDynamicsParameters, Vehicle, VehicleError,
+};
+
+/// Number of rotors, as the divisor of shares.
+const ROTORS: f64 = 4.0;
+
+impl Vehicle {
+    /// Control matrix C: pseudo-inputs `[u_col, u_lat, u_long, u_yaw] = C u` from the zeroed commands of the four rotors.
+    ///
+    /// Column i is `[1, −y_i/L, x_i/L, −s_i]` with the hub relative to the centre of mass, so that
+    /// `T = K_T u_col`, `M_x = L K_T u_lat`, `M_y = L K_T u_long`, `M_z = K_Q u_yaw`.
+    #[must_use]
+    pub fn control_matrix(&self) -> Matrix4<f64> {
+        let arm = self.airframe.arm_length;
+        Matrix4::from_fn(|row, i| {
+            let rotor = &self.rotors[i];
+            match row {
+                0 => 1.0,
+                1 => -rotor.position.y / arm,
+                2 => rotor.position.x / arm,
+                _ => -rotor.spin.sign(),
+            }
+        })
+    }
+
+    /// Weight `m g`, N.
+    #[must_use]
+    pub fn weight(&self) -> f64 {
+        self.airframe.mass * self.environment.gravity
+    }
+
+    /// Thrust per rotor in hover `m g / 4`, N, for rotors placed evenly about the centre of mass.
+    #[must_use]
+    pub fn hover_thrust_per_rotor(&self) -> f64 {
+        self.weight() / ROTORS
+    }
+
+    /// Range of the zeroed command u: lower end `ū_min − ū_0` and upper end `ū_max − ū_0`.
+    #[must_use]
+    pub fn zeroed_range(&self) -> std::ops::RangeInclusive<f64> {
+        let pwm = self.pwm;
+        (pwm.minimum - pwm.zero_thrust)..=(pwm.maximum - pwm.zero_thrust)
+    }
+
+    /// Transfer functions of the empirical rotor.
+    ///
+    /// # Errors
+    /// [`VehicleError::MissingGroup`] if the vehicle has none.
+    pub fn require_rotor_dynamics(
+        &self,
+        needed_by: &'static str,
+    ) -> Result<&RotorDynamicsParameters, VehicleError> {
+        self.require(&self.rotor_dynamics, "rotor_dynamics", needed_by)
+    }
+
+    /// Static polynomials of the empirical rotor.
+    ///
+    /// # Errors
+    /// [`VehicleError::MissingGroup`] if the vehicle has none.
+    pub fn require_polynomial_rotor(
+        &self,
+        needed_by: &'static str,
+    ) -> Result<&PolynomialRotorParameters, VehicleError> {
+        self.require(&self.polynomial_rotor, "polynomial_rotor", needed_by)
+    }
+
+    /// Propeller.
+    ///
+    /// # Errors
+    /// [`VehicleError::MissingGroup`] if the vehicle has none.
+    pub fn require_propeller(&self, needed_by: &'static str) -> Result<&PropellerParameters, VehicleError> {
+        self.require(&self.propeller, "propeller", needed_by)
+    }
+
+    /// Motor and speed controller.
+    ///
+    /// # Errors
+    /// [`VehicleError::MissingGroup`] if the vehicle has none.
+    pub fn require_motor(&self, needed_by: &'static str) -> Result<&MotorParameters, VehicleError> {
+        self.require(&self.motor, "motor", needed_by)
+    }
+
+    /// Battery.
+    ///
+    /// # Errors
+    /// [`VehicleError::MissingGroup`] if the vehicle has none.
+    pub fn require_battery(&self, needed_by: &'static str) -> Result<&BatteryParameters, VehicleError> {
+        self.require(&self.battery, "battery", needed_by)
+    }
+
+    /// Drag and rate damping.
+    ///
+    /// # Errors
+    /// [`VehicleError::MissingGroup`] if the vehicle has none.
+    pub fn require_drag(&self, needed_by: &'static str) -> Result<&DragParameters, VehicleError> {
+        self.require(&self.drag, "drag", needed_by)
+    }
+
+    fn require<'a, T>(
+        &self,
+        group: &'a Option<T>,
+        name: &'static str,
+        needed_by: &'static str,
+    ) -> Result<&'a T, VehicleError> {
+        group.as_ref().ok_or_else(|| VehicleError::MissingGroup {
+            vehicle: self.name.clone(),
+            group: name,
+            needed_by,
+        })
+    }
+}
+
+impl PropellerParameters {
+    /// Thrust constant `k_T = C_T ρ D⁴ / (2π)²`, N·s²: `T = k_T Ω²` with Ω in rad/s, at air density ρ in kg/m³.
+    #[must_use]
+    pub fn thrust_constant(&self, air_density: f64) -> f64 {
+        self.thrust_coefficient * air_density * self.diameter.powi(4) / TAU.powi(2)
+    }
+
+    /// Torque constant `k_Q = C_Q ρ D⁵ / (2π)²`, N·m·s²: `Q = k_Q Ω²` with Ω in rad/s, at air density ρ in kg/m³.
+    #[must_use]
+    pub fn torque_constant(&self, air_density: f64) -> f64 {
+        self.torque_coefficient * air_density * self.diameter.powi(5) / TAU.powi(2)
+    }
+}

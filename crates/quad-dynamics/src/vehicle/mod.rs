@@ -1,0 +1,219 @@
+//! The parameters of a vehicle: read from a file, validated once, plain numbers from then on.
+//!
+//! [`VehicleFile`] mirrors the TOML schema, every number with its source; [`Vehicle`] is the same without the sources,
+//! in SI units, with every number checked. A model takes from a [`Vehicle`] what it needs, and asks for the
+//! optional groups by name ([`Vehicle::require_motor`] and its like), so that a vehicle without a motor model flies at the
+//! levels that need none and is refused, with both names, by those that do.
+//!
+//! Nothing here reads a disk: who knows the path hands over the text and the file's name.
+
+mod accessors;
+pub mod builtin;
+mod convert;
+pub mod derive;
+mod error;
+pub mod file;
+mod limits;
+#[cfg(test)]
+mod tests;
+mod validate;
+
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+pub use error::VehicleError;
+pub use file::{Sourced, VehicleFile};
+
+/// Sense of rotation of a rotor, seen from above.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Spin {
+    /// Clockwise seen from above: positive about `z_B` (down), `s = +1`.
+    Clockwise,
+    /// Counter-clockwise seen from above: negative about `z_B`, `s = −1`.
+    CounterClockwise,
+}
+
+impl Spin {
+    /// Spin sense s about `z_B`: +1 clockwise, −1 counter-clockwise seen from above.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Clockwise => 1.0,
+            Self::CounterClockwise => -1.0,
+        }
+    }
+}
+
+/// A quadrotor's parameters, SI units throughout.
+///
+/// The fields are open: a study changes what it likes and may call [`Vehicle::validate`] again.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vehicle {
+    /// Name, as legends and messages print it.
+    pub name: String,
+    /// What it is and where its numbers come from as a whole.
+    pub description: String,
+    /// Where it flies.
+    pub environment: Environment,
+    /// Rigid body.
+    pub airframe: Airframe,
+    /// The four rotors in the order of the commands; on a '+' layout 1 rear, 2 front, 3 left, 4 right.
+    pub rotors: [RotorMount; 4],
+    /// Range of the raw PWM command.
+    pub pwm: PwmRange,
+    /// Linear rotor, levels 1 to 4.
+    pub linear_rotor: LinearRotorParameters,
+    /// Transfer functions of the empirical rotor, levels 4 and 5.
+    pub rotor_dynamics: Option<RotorDynamicsParameters>,
+    /// Static polynomials of the empirical rotor, level 5.
+    pub polynomial_rotor: Option<PolynomialRotorParameters>,
+    /// Propeller: mechanistic rotor, and rotor speed from thrust.
+    pub propeller: Option<PropellerParameters>,
+    /// Motor and speed controller: mechanistic rotor.
+    pub motor: Option<MotorParameters>,
+    /// Battery.
+    pub battery: Option<BatteryParameters>,
+    /// Drag and rate damping of the airframe.
+    pub drag: Option<DragParameters>,
+}
+
+/// Where a vehicle flies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Environment {
+    /// Gravitational acceleration g, m/s², along `+z_W` (down).
+    pub gravity: f64,
+    /// Air density ρ, kg/m³.
+    pub air_density: f64,
+}
+
+/// The rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Airframe {
+    /// Mass m, kg.
+    pub mass: f64,
+    /// Inertia matrix I about the centre of mass in body axes B (forward, right, down), kg·m².
+    pub inertia: Matrix3<f64>,
+    /// Arm length L from the geometric centre to a hub, m; scales the lateral and longitudinal pseudo-inputs.
+    pub arm_length: f64,
+    /// Centre of mass in the airframe's geometric frame, body axes, m.
+    pub centre_of_mass: Vector3<f64>,
+}
+
+/// Where a rotor sits and how it turns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RotorMount {
+    /// Name of the place, as in `rear`.
+    pub name: String,
+    /// Hub position r relative to the centre of mass, in B, m.
+    pub position: Vector3<f64>,
+    /// Sense of rotation seen from above.
+    pub spin: Spin,
+}
+
+/// Range of the raw PWM command ū, a duty without unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PwmRange {
+    /// Lower end ū_min, where the controller applies no voltage.
+    pub minimum: f64,
+    /// Upper end ū_max.
+    pub maximum: f64,
+    /// Zero-thrust value ū_0: where the linear rotor's line meets zero thrust. Zeroed command `u = ū − ū_0`.
+    pub zero_thrust: f64,
+}
+
+/// Linear rotor `T = K_T u`, `Q = K_Q u` with bandwidth ω_R.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearRotorParameters {
+    /// Thrust gain K_T, N per unit of zeroed duty; thrust along `−z_B`, positive up.
+    pub thrust_gain: f64,
+    /// Torque gain K_Q, N·m per unit of zeroed duty; positive against the spin.
+    pub torque_gain: f64,
+    /// Bandwidth ω_R of thrust and torque, rad/s.
+    pub bandwidth: f64,
+}
+
+/// Transfer functions from the static to the actual thrust and torque.
+///
+/// Thrust `c_T2 / (s² + c_T1 s + c_T2)`, reaction torque on the airframe `(c_Q1 s + c_Q2) / (s² + c_Q3 s + c_Q4)` with
+/// `c_Q2 = c_Q4`. The torque is what a bench measures, aerodynamic plus spin-up `Q + I_R dΩ/dt`; hence its zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotorDynamicsParameters {
+    /// c_T1, 1/s.
+    pub thrust_c1: f64,
+    /// c_T2, 1/s².
+    pub thrust_c2: f64,
+    /// c_Q1, 1/s; 0 if the zero is absent.
+    pub torque_c1: f64,
+    /// c_Q2, 1/s².
+    pub torque_c2: f64,
+    /// c_Q3, 1/s.
+    pub torque_c3: f64,
+    /// c_Q4, 1/s².
+    pub torque_c4: f64,
+}
+
+/// Static thrust and torque as polynomials `k_1 x + k_2 x² + k_3 x³` in the effective motor voltage `x = (ū − ū_min) V_b`.
+///
+/// x is in volts with the duty as it is; it is not yet the voltage at the motor, which is `x / full_voltage_duty`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PolynomialRotorParameters {
+    /// Thrust terms k_1 in N/V, k_2 in N/V², k_3 in N/V³.
+    pub thrust: [f64; 3],
+    /// Torque terms k_1 in N·m/V, k_2 in N·m/V², k_3 in N·m/V³.
+    pub torque: [f64; 3],
+}
+
+/// Propeller `T = C_T ρ n² D⁴`, `Q = C_Q ρ n² D⁵`, n in revolutions per second.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PropellerParameters {
+    /// Diameter D, m.
+    pub diameter: f64,
+    /// Static thrust coefficient C_T.
+    pub thrust_coefficient: f64,
+    /// Static torque coefficient `C_Q = C_P / 2π`.
+    pub torque_coefficient: f64,
+}
+
+/// Brushless motor with its speed controller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotorParameters {
+    /// Velocity constant K_v, rad/s per volt; the torque constant is `1/K_v`.
+    pub velocity_constant: f64,
+    /// Resistance of motor and controller R, Ω.
+    pub resistance: f64,
+    /// No-load current I_0, A.
+    pub no_load_current: f64,
+    /// Inertia of propeller and bell about the spin axis I_R, kg·m².
+    pub rotor_inertia: f64,
+    /// Time constant of the speed controller τ_ESC, s.
+    pub controller_lag: f64,
+    /// Duty above ū_min at which the whole battery voltage is applied: `V_eff = (ū − ū_min) / full_voltage_duty · V_b`.
+    pub full_voltage_duty: f64,
+}
+
+/// Battery with internal resistance and exponential zone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BatteryParameters {
+    /// Nominal voltage, V: the constant voltage of models without sag.
+    pub nominal_voltage: f64,
+    /// Open-circuit voltage when full, V.
+    pub full_voltage: f64,
+    /// Internal resistance, Ω.
+    pub internal_resistance: f64,
+    /// Capacity, A·h.
+    pub capacity: f64,
+    /// Amplitude of the exponential zone A, V.
+    pub exponential_amplitude: f64,
+    /// Rate of the exponential zone B, 1/(A·h).
+    pub exponential_rate: f64,
+}
+
+/// Drag of the airframe, against the air-relative velocity and the body rates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DragParameters {
+    /// Quadratic coefficients per body axis, N·s²/m²: `F_i = −k_i |v_i| v_i`.
+    pub quadratic: Vector3<f64>,
+    /// Rate damping per body axis, N·m·s: `M_i = −d_i ω_i`.
+    pub rate_damping: Vector3<f64>,
+}

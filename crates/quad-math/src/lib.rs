@@ -1,0 +1,62 @@
+//! The mathematics below the physics: scalars, states, integration, derivatives, time grids, polynomials.
+//!
+//! One text serves many scalars. A model generic in `R:` [`Real`] runs on `f64`, on dual numbers (its
+//! Jacobian is then exact) and on SIMD lanes (several vehicles at once):
+//!
+//! | you have | you want | use |
+//! | --- | --- | --- |
+//! | `ẋ = f(x, u)` with the input held | one fixed step | [`FixedStep`], [`rk4_step`], [`euler_step`] |
+//! | `ẋ = f(t, x)` and an exact grid | samples, or the instant it diverged | [`Simulation`] on a [`TimeGrid`] |
+//! | `ẋ = f(t, x)` and a tolerance | a solution at any instant | [`DormandPrince`] |
+//! | `y = f(x)` | `∂y/∂x` | [`jacobian`] |
+//! | `ẋ = f(x)`, `y = h(x)` | `y, ẏ, ÿ, y⃛`: Lie derivatives | [`output_derivatives`] |
+//! | values and derivatives at two ends | the polynomial between them | [`Segment`] |
+//!
+//! # Example
+//!
+//! A damped oscillator `ẍ = -4x - 0.4ẋ`, written once, stepped on a grid and linearised by the same text.
+//!
+//! ```
+//! use nalgebra::{Matrix2, Vector2};
+//! use quad_math::{Dual, Real, Simulation, TimeGrid, constant, jacobian};
+//!
+//! fn rate<R: Real>(x: &Vector2<R>) -> Vector2<R> {
+//!     Vector2::new(x.y, -x.x * constant(4.0) - x.y * constant(0.4))
+//! }
+//!
+//! let grid = TimeGrid::from_seconds(0.01, 20.0)?;
+//! let run = Simulation::on(grid).run(|_t, x| rate(x), Vector2::new(1.0, 0.0));
+//! assert!(run.is_complete());
+//! assert_eq!(run.samples[2000].time_s, 20.0); // a whole number of ticks: no drift
+//!
+//! let a = jacobian(|x: &[Dual<2>; 2]| rate(&Vector2::from(*x)).into(), [0.0, 0.0]);
+//! assert_eq!(a, Matrix2::new(0.0, 1.0, -4.0, -0.4));
+//! # Ok::<(), quad_math::GridError>(())
+//! ```
+//!
+//! # What it does not do
+//!
+//! No units in the types: times are seconds and everything else is in the unit its owner says. The integrators
+//! are explicit, for non-stiff problems. A step of constant input or smooth `f` is assumed: a kink within a
+//! step costs accuracy whatever the order, so put kinks on the ends of steps.
+
+mod adaptive;
+mod derivatives;
+mod grid;
+mod polynomial;
+mod real;
+mod simulate;
+mod state;
+mod system;
+
+pub use adaptive::{
+    AdaptiveError, AdaptiveOptions, AdaptiveRun, AdaptiveStatistics, AdaptiveStatus, DenseStep,
+    DormandPrince, DormandPrinceStep, dormand_prince_step,
+};
+pub use derivatives::{Dual, Taylor3, jacobian, output_derivatives};
+pub use grid::{GridError, TimeGrid};
+pub use polynomial::{End, Polynomial, Segment, SegmentError};
+pub use real::{F32x8, F64x4, Real, constant};
+pub use simulate::{Sample, Simulation, SimulationRun, SimulationStatus, Tick};
+pub use state::{Flat, Rate, State};
+pub use system::{FixedStep, RateOf, System, euler, euler_step, rk4, rk4_step};

@@ -1,0 +1,248 @@
+//! The command line: which items, where to, and what the exit code says.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::claim::{Claim, Expected};
+use crate::figures;
+use crate::item::{Context, Item, Make, repository_root};
+use crate::run::{self, Options, References};
+use crate::summary::{Record, Status};
+
+/// Exit code when an item failed or a claim's outcome differs from the registered one.
+const DIFFERS: u8 = 1;
+/// Exit code for bad usage.
+const USAGE: u8 = 2;
+
+/// Draws the figures and tables of the study and checks their claims.
+///
+/// Exit codes: 0 when everything came out as registered; 1 when an item failed or the outcome of a claim differs
+/// from the registered one; 2 for bad usage.
+#[derive(Clone, Debug, Parser)]
+#[command(name = "reproduce-figures", version)]
+pub struct Arguments {
+    /// Items to make, such as `6.4 F.1 table-4.3`; all if none is named.
+    ids: Vec<String>,
+    /// Only the items of this chapter or appendix (`6`, `F`); may be repeated.
+    #[arg(long, value_name = "N")]
+    chapter: Vec<String>,
+    /// List the items with their claims, and make nothing.
+    #[arg(long)]
+    list: bool,
+    /// Items made at the same time; all cores if not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Compare the data with the committed references.
+    #[arg(long, conflicts_with_all = ["quick", "bless"])]
+    check: bool,
+    /// Write the references that `--check` compares with.
+    #[arg(long, conflicts_with = "quick")]
+    bless: bool,
+    /// Shorter runs; every claim is checked all the same.
+    #[arg(long)]
+    quick: bool,
+    /// Folder of the output, instead of target/figures.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Runs the program and returns its exit code.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let known = figures::all();
+    let items = match select(&known, &arguments.ids, &arguments.chapter) {
+        Ok(items) => items,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return ExitCode::from(USAGE);
+        }
+    };
+    if arguments.list {
+        print!("{}", listing(&items));
+        return ExitCode::SUCCESS;
+    }
+    let options = options(&arguments);
+    run::quiet_panics();
+    let progress = Progress::new(items.len());
+    match run::run(&items, &known, &options, |record| progress.ended(record)) {
+        Ok(records) => {
+            progress.finish();
+            println!("{}", closing(&records));
+            println!("gallery: {}", options.out.join("index.html").display());
+            ExitCode::from(exit_code(&records))
+        }
+        Err(error) => {
+            progress.finish();
+            eprintln!("error: {error}");
+            ExitCode::from(DIFFERS)
+        }
+    }
+}
+
+fn options(arguments: &Arguments) -> Options {
+    let root = repository_root();
+    let references = match (arguments.check, arguments.bless) {
+        (true, _) => References::Check,
+        (_, true) => References::Bless,
+        _ => References::Ignore,
+    };
+    let cores = || thread::available_parallelism().map_or(1, usize::from);
+    Options {
+        out: arguments.out.clone().unwrap_or_else(|| root.join("target/figures")),
+        reference: root.join("experiments/reference"),
+        references,
+        jobs: arguments.jobs.map_or_else(cores, usize::from),
+        context: Context::new(root, arguments.quick),
+    }
+}
+
+/// Why the items asked for cannot be selected.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SelectError {
+    /// There is no such item.
+    #[error("there is no item \"{id}\"; there are: {known}")]
+    UnknownItem {
+        /// The identifier asked for.
+        id: String,
+        /// All identifiers.
+        known: String,
+    },
+    /// There is no such chapter.
+    #[error("there is no item of chapter \"{chapter}\"; there are chapters: {known}")]
+    UnknownChapter {
+        /// The chapter asked for.
+        chapter: String,
+        /// All chapters.
+        known: String,
+    },
+}
+
+/// The items named by `ids` and those of `chapters`; all if both are empty.
+///
+/// # Errors
+/// An identifier or chapter that does not exist.
+pub fn select(known: &[Item], ids: &[String], chapters: &[String]) -> Result<Vec<Item>, SelectError> {
+    for id in ids {
+        if !known.iter().any(|item| item.id == id) {
+            let known = known.iter().map(|item| item.id).collect::<Vec<_>>().join(" ");
+            return Err(SelectError::UnknownItem { id: id.clone(), known });
+        }
+    }
+    for chapter in chapters {
+        if !known.iter().any(|item| item.chapter() == chapter) {
+            let mut all: Vec<_> = known.iter().map(Item::chapter).collect();
+            all.dedup();
+            return Err(SelectError::UnknownChapter { chapter: chapter.clone(), known: all.join(" ") });
+        }
+    }
+    let everything = ids.is_empty() && chapters.is_empty();
+    let wanted = |item: &&Item| {
+        everything || ids.iter().any(|id| id == item.id) || chapters.iter().any(|c| c == item.chapter())
+    };
+    Ok(known.iter().filter(wanted).copied().collect())
+}
+
+/// The exit code that the records of a run call for.
+pub fn exit_code(records: &[Record]) -> u8 {
+    if records.iter().all(Record::is_as_registered) { 0 } else { DIFFERS }
+}
+
+fn listing(items: &[Item]) -> String {
+    let line = |claim: &Claim| match claim.expected {
+        Expected::Holds => format!("           claim: {}\n", claim.text),
+        Expected::DoesNotHold { reason } => {
+            format!("           claim, registered as not holding: {} (because {reason})\n", claim.text)
+        }
+    };
+    let entry = |item: &Item| {
+        let reason = match item.make {
+            Make::NotReproducible(reason) => format!(" [not reproducible: {reason}]"),
+            Make::Draw(_) => String::new(),
+        };
+        let claims: String = item.claims.iter().map(line).collect();
+        format!("{:<10} {}{reason}\n{claims}", item.id, item.title)
+    };
+    items.iter().map(entry).collect()
+}
+
+/// One line about an item, and one about each claim with an unexpected or a registered negative outcome.
+fn lines(record: &Record) -> Vec<String> {
+    let how = match &record.status {
+        Status::Drawn => format!("drawn in {:.2} s, {} claims", record.seconds, record.claims.len()),
+        Status::NotReproducible { .. } => "not reproducible".into(),
+        Status::Failed { error } => format!("FAILED: {error}"),
+    };
+    let mut lines = vec![format!("{:<10} {how}", record.id)];
+    for claim in record.claims.iter().filter(|claim| !claim.pass || !claim.as_registered()) {
+        let because = claim.reason.as_ref().map(|reason| format!(", because {reason}")).unwrap_or_default();
+        let (text, verdict, measured) = (&claim.text, claim.verdict(), &claim.measured);
+        lines.push(format!("           {text}: {verdict}: measured {measured}{because}"));
+    }
+    lines
+}
+
+fn closing(records: &[Record]) -> String {
+    let count = |wanted: fn(&Status) -> bool| records.iter().filter(|r| wanted(&r.status)).count();
+    let drawn = count(|s| matches!(s, Status::Drawn));
+    let photographs = count(|s| matches!(s, Status::NotReproducible { .. }));
+    let failed = count(|s| matches!(s, Status::Failed { .. }));
+    let claims: Vec<_> = records.iter().flat_map(|record| &record.claims).collect();
+    let held = claims.iter().filter(|claim| claim.pass && claim.as_registered()).count();
+    let not_held = claims.iter().filter(|claim| !claim.pass && claim.as_registered()).count();
+    let differing = claims.len() - held - not_held;
+    format!(
+        "{drawn} drawn, {photographs} not reproducible, {failed} failed; claims: {held} hold, {not_held} do not hold \
+         as registered, {differing} differ from what is registered"
+    )
+}
+
+/// A bar on a terminal, plain lines otherwise.
+struct Progress {
+    bar: Option<ProgressBar>,
+    total: usize,
+    ended: AtomicUsize,
+}
+
+impl Progress {
+    fn new(total: usize) -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let bar = ProgressBar::new(total as u64);
+            if let Ok(style) = ProgressStyle::with_template("{bar:32} {pos}/{len} {elapsed} {msg}") {
+                bar.set_style(style);
+            }
+            bar
+        });
+        Self { bar, total, ended: AtomicUsize::new(0) }
+    }
+
+    fn ended(&self, record: &Record) {
+        let number = self.ended.fetch_add(1, Ordering::Relaxed) + 1;
+        let width = self.total.to_string().len();
+        for (i, line) in lines(record).into_iter().enumerate() {
+            let head = if i == 0 { format!("[{number:>width$}/{}] ", self.total) } else { String::new() };
+            match &self.bar {
+                Some(bar) => bar.println(format!("{head}{line}")),
+                None => println!("{head}{line}"),
+            }
+        }
+        if let Some(bar) = &self.bar {
+            bar.inc(1);
+            bar.set_message(record.id.clone());
+        }
+    }
+
+    fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

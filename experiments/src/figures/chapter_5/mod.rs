@@ -1,0 +1,8 @@
+//! Chapter 5: models at several resolutions.
+
+use crate::item::Item;
+
+mod figure_5_1;
+
+/// The items of this chapter.
+pub(super) const ITEMS: &[Item] = &[figure_5_1::ITEM];

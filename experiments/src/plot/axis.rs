@@ -1,0 +1,220 @@
+//! Axes: range, ticks and tick labels.
+
+/// An axis as the caller states it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axis {
+    /// Label with symbol and unit, rich text: `Height *z*, m`.
+    pub label: String,
+    /// Range, if it is not to follow from the data.
+    pub range: Option<(f64, f64)>,
+    /// Distance between ticks, if it is not to be chosen.
+    pub step: Option<f64>,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// Names of categories 1, 2, … instead of numbers.
+    pub categories: Vec<String>,
+}
+
+/// How values map to the length of an axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// In proportion.
+    #[default]
+    Linear,
+    /// By the logarithm.
+    Log,
+}
+
+/// An axis whose range and ticks are settled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SettledAxis {
+    /// Lower end.
+    pub min: f64,
+    /// Upper end.
+    pub max: f64,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// Distance between ticks of a linear axis.
+    pub step: f64,
+}
+
+/// How much of the data's range is left free at each end, where an axis is padded.
+const PADDING: f64 = 0.04;
+
+impl Axis {
+    /// Settles range and ticks for these values.
+    ///
+    /// `padded` leaves some room beyond the data (heights), an unpadded axis ends with them (times);
+    /// `target_ticks` is how many ticks would look right.
+    pub fn settle(&self, values: impl Iterator<Item = f64>, padded: bool, target_ticks: f64) -> SettledAxis {
+        let usable = |v: &f64| v.is_finite() && (self.scale == Scale::Linear || *v > 0.0);
+        let (low, high) = values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (f64::min(low, v), f64::max(high, v))
+        });
+        let (min, max) = match self.range {
+            Some(range) => range,
+            None if low > high => (if self.scale == Scale::Log { 0.1 } else { 0.0 }, 1.0),
+            None if self.scale == Scale::Log => widen_log(low, high),
+            None => widen(low, high, padded),
+        };
+        let step = self.step.unwrap_or_else(|| nice_step((max - min) / target_ticks.max(1.0)));
+        SettledAxis { min, max, scale: self.scale, step }
+    }
+}
+
+fn widen(low: f64, high: f64, padded: bool) -> (f64, f64) {
+    let range = high - low;
+    let negligible = 1e-12 * low.abs().max(high.abs());
+    if range <= negligible {
+        let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
+        return (low - half, high + half);
+    }
+    let padding = if padded { PADDING * range } else { 0.0 };
+    (low - padding, high + padding)
+}
+
+/// Extends a logarithmic range to whole decades where that costs less than half a decade, else by a little.
+fn widen_log(low: f64, high: f64) -> (f64, f64) {
+    let (low, high) = (low.log10(), high.log10());
+    let (floor, ceiling) = (low.floor(), high.ceil());
+    let low = if low - floor < 0.5 { floor } else { low - 0.1 };
+    let high = if ceiling - high < 0.5 { ceiling } else { high + 0.1 };
+    let high = if high > low { high } else { low + 1.0 };
+    (10f64.powf(low), 10f64.powf(high))
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is not below `raw`.
+pub fn nice_step(raw: f64) -> f64 {
+    if !(raw.is_finite() && raw > 0.0) {
+        return 1.0;
+    }
+    let decade = 10f64.powf(raw.log10().floor());
+    // A whisker of slack, so that 0.2000000001 still gives 0.2.
+    let slack = 1.0 + 1e-9;
+    let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| factor * decade * slack >= raw);
+    factor.unwrap_or(10.0) * decade
+}
+
+impl SettledAxis {
+    /// Positions of the ticks.
+    pub fn ticks(&self) -> Vec<f64> {
+        if self.scale == Scale::Log {
+            let exponents = self.min.log10().ceil() as i32..=self.max.log10().floor() as i32;
+            return exponents.map(|exponent| 10f64.powi(exponent)).collect();
+        }
+        // A thousandth of a step of slack, so that a tick at the very end is not lost to rounding.
+        let slack = 1e-3;
+        let first = (self.min / self.step - slack).ceil() as i64;
+        let last = (self.max / self.step + slack).floor() as i64;
+        (first..=last).map(|i| i as f64 * self.step).collect()
+    }
+
+    /// The label of a tick: as many decimals as the step needs, a true minus sign, powers of ten where they are
+    /// shorter.
+    pub fn tick_label(&self, value: f64) -> String {
+        tick_label(value, self.step, self.scale)
+    }
+
+    /// Position along the axis: 0 at the lower end, 1 at the upper.
+    pub fn fraction(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => (value - self.min) / (self.max - self.min),
+            Scale::Log => (value / self.min).ln() / (self.max / self.min).ln(),
+        }
+    }
+}
+
+/// Steps below this are labelled with powers of ten.
+const SMALLEST_PLAIN_STEP: f64 = 1e-4;
+/// Values from this on are labelled with powers of ten.
+const LARGEST_PLAIN_VALUE: f64 = 1e5;
+
+/// The label of a tick at `value` where neighbouring ticks are `step` apart.
+pub fn tick_label(value: f64, step: f64, scale: Scale) -> String {
+    let magnitude = value.abs();
+    if scale == Scale::Log {
+        return log_label(value);
+    }
+    if magnitude < 1e-9 * step {
+        return "0".into();
+    }
+    let sign = if value < 0.0 { "−" } else { "" };
+    if step < 0.999 * SMALLEST_PLAIN_STEP || magnitude >= LARGEST_PLAIN_VALUE {
+        let exponent = (magnitude.log10() + 1e-9).floor();
+        let step_exponent = (step.log10() + 1e-9).floor();
+        let decimals = (exponent - step_exponent).max(0.0) as usize;
+        let mantissa = magnitude / 10f64.powf(exponent);
+        return format!("{sign}{mantissa:.decimals$}·10{}", superscript(exponent as i32));
+    }
+    format!("{sign}{magnitude:.*}", decimals_of(step))
+}
+
+/// Decimals that tell multiples of `step` apart: 1 for 0.5, 2 for 0.25.
+fn decimals_of(step: f64) -> usize {
+    let distinguishes = |decimals: &usize| {
+        let scaled = step * 10f64.powi(*decimals as i32);
+        (scaled - scaled.round()).abs() < 1e-6 * scaled
+    };
+    const MOST_DECIMALS: usize = 6;
+    (0..MOST_DECIMALS).find(distinguishes).unwrap_or(MOST_DECIMALS)
+}
+
+fn log_label(value: f64) -> String {
+    let exponent = value.log10();
+    if (exponent - exponent.round()).abs() > 1e-6 {
+        return String::new();
+    }
+    match exponent.round() as i32 {
+        e @ -2..=3 => format!("{:.*}", (-e).max(0) as usize, value),
+        e => format!("10{}", superscript(e)),
+    }
+}
+
+/// An integer in superscript figures: `⁻³`.
+pub fn superscript(value: i32) -> String {
+    const FIGURES: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let figure = |c: char| c.to_digit(10).map_or('⁻', |digit| FIGURES[digit as usize]);
+    value.to_string().chars().map(figure).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_tick_labels() {
+        let linear = |value, step| tick_label(value, step, Scale::Linear);
+        assert_eq!(linear(-0.5, 0.5), "−0.5");
+        assert_eq!(linear(0.0, 0.5), "0");
+        assert_eq!(linear(1.0, 0.25), "1.00");
+        assert_eq!(linear(20.0, 10.0), "20");
+        assert_eq!(linear(-2e-5, 1e-5), "−2·10⁻⁵");
+        assert_eq!(linear(150_000.0, 50_000.0), "1.5·10⁵");
+        assert_eq!(tick_label(1e-4, 1.0, Scale::Log), "10⁻⁴");
+        assert_eq!(tick_label(0.1, 1.0, Scale::Log), "0.1");
+    }
+
+    #[test]
+    fn exact_nice_steps() {
+        assert_eq!([0.03, 0.2, 0.21, 7.0].map(nice_step), [0.05, 0.2, 0.5, 10.0]);
+        assert_eq!(nice_step(f64::NAN), 1.0);
+    }
+
+    #[test]
+    fn prop_ticks_lie_inside_the_range() {
+        let axis = Axis::default().settle([-1.0, 0.3, f64::NAN, 2.7].into_iter(), true, 5.0);
+        let ticks = axis.ticks();
+        assert!(ticks.len() >= 3 && ticks.iter().all(|t| (axis.min..=axis.max).contains(t)), "{ticks:?}");
+        assert!((axis.fraction(axis.min), axis.fraction(axis.max)) == (0.0, 1.0));
+    }
+
+    #[test]
+    fn prop_degenerate_data_still_give_a_range() {
+        for values in [vec![], vec![0.0], vec![3.0, 3.0], vec![f64::INFINITY]] {
+            for scale in [Scale::Linear, Scale::Log] {
+                let axis = Axis { scale, ..Axis::default() }.settle(values.clone().into_iter(), true, 5.0);
+                assert!(axis.max > axis.min && axis.step > 0.0, "{values:?} {scale:?} {axis:?}");
+            }
+        }
+    }
+}

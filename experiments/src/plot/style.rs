@@ -1,0 +1,134 @@
+//! The looks of lines and markers: colours of Okabe and Ito (safe for colour-blind readers), and for each series a
+//! dash and a width of its own, so that a grey print reads as well.
+
+/// Colour of text, axes and reference curves.
+pub const INK: &str = "#1a1a1a";
+/// Colour of what stands back: grid lines, shadows.
+pub const FAINT: &str = "#d4d4d4";
+/// Colour of secondary text and construction lines.
+pub const GREY: &str = "#767676";
+/// Okabe and Ito's blue.
+pub const BLUE: &str = "#0072b2";
+/// Okabe and Ito's vermilion.
+pub const VERMILION: &str = "#d55e00";
+/// Okabe and Ito's bluish green.
+pub const GREEN: &str = "#009e73";
+/// Okabe and Ito's reddish purple.
+pub const PURPLE: &str = "#cc79a7";
+/// Okabe and Ito's orange.
+pub const ORANGE: &str = "#e69f00";
+/// Okabe and Ito's sky blue.
+pub const SKY: &str = "#56b4e9";
+
+/// How a line or a set of markers is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Colour, `#rrggbb`.
+    pub colour: &'static str,
+    /// Dash pattern, px on and off; empty for a solid line.
+    pub dash: &'static str,
+    /// Width of the line, px.
+    pub width: f64,
+    /// Shape of markers.
+    pub marker: Marker,
+}
+
+/// Shape of markers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Marker {
+    /// Disc.
+    #[default]
+    Circle,
+    /// Square.
+    Square,
+    /// Triangle, point up.
+    Triangle,
+    /// Diamond.
+    Diamond,
+    /// Triangle, point down.
+    TriangleDown,
+    /// Diagonal cross.
+    Cross,
+}
+
+impl Look {
+    /// A solid line of this colour and width.
+    pub const fn solid(colour: &'static str, width: f64) -> Self {
+        Self { colour, dash: "", width, marker: Marker::Circle }
+    }
+
+    /// The same with another dash pattern.
+    pub const fn dashed(self, dash: &'static str) -> Self {
+        Self { dash, ..self }
+    }
+
+    /// The same with another marker.
+    pub const fn marked(self, marker: Marker) -> Self {
+        Self { marker, ..self }
+    }
+}
+
+/// The series of looks in their order. Widths fall, so that coinciding curves drawn in order all stay visible.
+const SERIES: [Look; 6] = [
+    Look::solid(BLUE, 2.6),
+    Look::solid(VERMILION, 2.2).dashed("9 4").marked(Marker::Square),
+    Look::solid(GREEN, 2.0).dashed("9 3 2 3").marked(Marker::Triangle),
+    Look::solid(PURPLE, 2.0).dashed("2 2.5").marked(Marker::Diamond),
+    Look::solid(ORANGE, 1.6).dashed("5 2.5").marked(Marker::TriangleDown),
+    Look::solid(SKY, 1.6).dashed("9 3 2 3 2 3").marked(Marker::Cross),
+];
+
+/// The look of one level of the model family, the same in every figure. Levels run from 1 to 5.
+///
+/// Draw the levels in rising order: their widths fall, so that coinciding curves all stay visible.
+pub const fn level_style(level: u8) -> Look {
+    let index = if level == 0 { 0 } else { level as usize - 1 };
+    series_style(index)
+}
+
+/// The name of one level in legends.
+pub fn level_name(level: u8) -> String {
+    format!("level {level}")
+}
+
+/// The look of the `index`-th of several series that are neither levels nor controllers; repeats after six.
+pub const fn series_style(index: usize) -> Look {
+    SERIES[index % SERIES.len()]
+}
+
+/// The look of references, set points, limits and other given curves: thin, black, dashed.
+pub const fn reference_style() -> Look {
+    Look::solid(INK, 1.0).dashed("4 3")
+}
+
+/// The controllers that are compared with each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Controller {
+    /// Non-linear dynamic inversion.
+    Ndi,
+    /// Proportional, integral, derivative.
+    Pid,
+}
+
+/// The look of a controller where NDI and PID are compared.
+pub const fn controller_style(controller: Controller) -> Look {
+    match controller {
+        Controller::Ndi => series_style(0),
+        Controller::Pid => series_style(1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prop_levels_differ_in_colour_and_in_dash() {
+        for a in 1..=5 {
+            for b in 1..a {
+                let (first, second) = (level_style(a), level_style(b));
+                assert!(first.colour != second.colour && first.dash != second.dash, "levels {a} and {b}");
+            }
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Chores of the repository. `cargo xtask reproduce-figures --help` explains the first one.
+
+use std::env;
+use std::ffi::OsString;
+use std::process::{Command, ExitCode};
+
+const USAGE: &str = "\
+usage: cargo xtask <chore> [arguments]
+
+chores:
+  reproduce-figures   draw the figures and tables and check their claims (--help for its arguments)
+";
+
+/// Exit code for bad usage.
+const BAD_USAGE: u8 = 2;
+/// Exit code when a chore could not be started or was killed.
+const BROKEN: u8 = 1;
+
+fn main() -> ExitCode {
+    let mut arguments = env::args_os().skip(1);
+    let chore = arguments.next().unwrap_or_default();
+    match chore.to_str() {
+        Some("reproduce-figures") => reproduce_figures(arguments.collect()),
+        Some("help" | "--help" | "-h") => {
+            print!("{USAGE}");
+            ExitCode::SUCCESS
+        }
+        _ => {
+            eprint!("error: unknown chore {chore:?}\n\n{USAGE}");
+            ExitCode::from(BAD_USAGE)
+        }
+    }
+}
+
+/// Builds and runs the package `experiments` in release, with the same arguments and the same exit code.
+fn reproduce_figures(arguments: Vec<OsString>) -> ExitCode {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status = Command::new(cargo)
+        .args(["run", "--release", "--quiet", "--package", "experiments", "--manifest-path"])
+        .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml"))
+        .arg("--")
+        .args(arguments)
+        .status();
+    match status.map(|status| status.code()) {
+        Ok(Some(code)) => ExitCode::from(u8::try_from(code).unwrap_or(BROKEN)),
+        Ok(None) => ExitCode::from(BROKEN),
+        Err(error) => {
+            eprintln!("error: cannot run cargo: {error}");
+            ExitCode::from(BROKEN)
+        }
+    }
+}
