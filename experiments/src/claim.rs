@@ -36,12 +36,18 @@ pub enum Expected {
 impl Claim {
     /// A claim registered as holding.
     pub const fn holds(text: &'static str) -> Self {
-        Self { text, expected: Expected::Holds }
+        Self {
+            text,
+            expected: Expected::Holds,
+        }
     }
 
     /// A claim registered as not holding, with the reason.
     pub const fn does_not_hold(text: &'static str, reason: &'static str) -> Self {
-        Self { text, expected: Expected::DoesNotHold { reason } }
+        Self {
+            text,
+            expected: Expected::DoesNotHold { reason },
+        }
     }
 }
 
@@ -129,19 +135,29 @@ pub fn judge(registered: &[Claim], findings: &[Finding]) -> (Vec<ClaimRecord>, V
     let mut records = Vec::new();
     let mut faults = Vec::new();
     for claim in registered {
-        let matching: Vec<_> = findings.iter().filter(|finding| finding.text == claim.text).collect();
+        let matching: Vec<_> = findings
+            .iter()
+            .filter(|finding| finding.text == claim.text)
+            .collect();
         match matching.as_slice() {
-            [] => faults.push(ClaimFault::NotChecked { text: claim.text.into() }),
+            [] => faults.push(ClaimFault::NotChecked {
+                text: claim.text.into(),
+            }),
             [finding] => records.push(record(claim, finding)),
             several => {
                 let times = several.len();
-                faults.push(ClaimFault::CheckedRepeatedly { text: claim.text.into(), times });
+                faults.push(ClaimFault::CheckedRepeatedly {
+                    text: claim.text.into(),
+                    times,
+                });
             }
         }
     }
     for finding in findings {
         if !registered.iter().any(|claim| claim.text == finding.text) {
-            faults.push(ClaimFault::NotRegistered { text: finding.text.clone() });
+            faults.push(ClaimFault::NotRegistered {
+                text: finding.text.clone(),
+            });
         }
     }
     (records, faults)
@@ -152,7 +168,13 @@ fn record(claim: &Claim, finding: &Finding) -> ClaimRecord {
         Expected::Holds => (ExpectedRecord::Holds, None),
         Expected::DoesNotHold { reason } => (ExpectedRecord::DoesNotHold, Some(reason.to_owned())),
     };
-    ClaimRecord { text: finding.text.clone(), expected, pass: finding.pass, measured: finding.measured.clone(), reason }
+    ClaimRecord {
+        text: finding.text.clone(),
+        expected,
+        pass: finding.pass,
+        measured: finding.measured.clone(),
+        reason,
+    }
 }
 
 #[cfg(test)]
@@ -163,27 +185,48 @@ mod tests {
     const FAILS: Claim = Claim::does_not_hold("the error falls", "the lag is cancelled already");
 
     fn finding(claim: Claim, pass: bool) -> Finding {
-        Finding { text: claim.text.into(), pass, measured: "0.3 mm".into() }
+        Finding {
+            text: claim.text.into(),
+            pass,
+            measured: "0.3 mm".into(),
+        }
     }
 
     #[test]
     fn prop_each_claim_is_checked_exactly_once() {
         let (records, faults) = judge(&[HOLDS, FAILS], &[finding(FAILS, false), finding(HOLDS, true)]);
         assert!(faults.is_empty());
-        assert_eq!(records.iter().map(|r| r.text.as_str()).collect::<Vec<_>>(), [HOLDS.text, FAILS.text]);
+        assert_eq!(
+            records.iter().map(|r| r.text.as_str()).collect::<Vec<_>>(),
+            [HOLDS.text, FAILS.text]
+        );
         assert!(records.iter().all(ClaimRecord::as_registered));
         assert_eq!(records[1].reason.as_deref(), Some("the lag is cancelled already"));
     }
 
     #[test]
     fn prop_missing_extra_and_repeated_findings_are_faults() {
-        let stray = Finding { text: "unheard of".into(), pass: true, measured: String::new() };
-        let (records, faults) = judge(&[HOLDS, FAILS], &[finding(FAILS, false), finding(FAILS, false), stray]);
+        let stray = Finding {
+            text: "unheard of".into(),
+            pass: true,
+            measured: String::new(),
+        };
+        let (records, faults) = judge(
+            &[HOLDS, FAILS],
+            &[finding(FAILS, false), finding(FAILS, false), stray],
+        );
         assert!(records.is_empty());
         let expected = [
-            ClaimFault::NotChecked { text: HOLDS.text.into() },
-            ClaimFault::CheckedRepeatedly { text: FAILS.text.into(), times: 2 },
-            ClaimFault::NotRegistered { text: "unheard of".into() },
+            ClaimFault::NotChecked {
+                text: HOLDS.text.into(),
+            },
+            ClaimFault::CheckedRepeatedly {
+                text: FAILS.text.into(),
+                times: 2,
+            },
+            ClaimFault::NotRegistered {
+                text: "unheard of".into(),
+            },
         ];
         assert_eq!(faults, expected);
     }

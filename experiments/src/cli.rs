@@ -74,6 +74,11 @@ pub fn main() -> ExitCode {
         Ok(records) => {
             progress.finish();
             println!("{}", closing(&records));
+            match options.references {
+                References::Check => println!("data compared with {}", options.reference.display()),
+                References::Bless => println!("references written to {}", options.reference.display()),
+                References::Ignore => {}
+            }
             println!("gallery: {}", options.out.join("index.html").display());
             ExitCode::from(exit_code(&records))
         }
@@ -94,7 +99,10 @@ fn options(arguments: &Arguments) -> Options {
     };
     let cores = || thread::available_parallelism().map_or(1, usize::from);
     Options {
-        out: arguments.out.clone().unwrap_or_else(|| root.join("target/figures")),
+        out: arguments
+            .out
+            .clone()
+            .unwrap_or_else(|| root.join("target/figures")),
         reference: root.join("experiments/reference"),
         references,
         jobs: arguments.jobs.map_or_else(cores, usize::from),
@@ -131,14 +139,20 @@ pub fn select(known: &[Item], ids: &[String], chapters: &[String]) -> Result<Vec
     for id in ids {
         if !known.iter().any(|item| item.id == id) {
             let known = known.iter().map(|item| item.id).collect::<Vec<_>>().join(" ");
-            return Err(SelectError::UnknownItem { id: id.clone(), known });
+            return Err(SelectError::UnknownItem {
+                id: id.clone(),
+                known,
+            });
         }
     }
     for chapter in chapters {
         if !known.iter().any(|item| item.chapter() == chapter) {
             let mut all: Vec<_> = known.iter().map(Item::chapter).collect();
             all.dedup();
-            return Err(SelectError::UnknownChapter { chapter: chapter.clone(), known: all.join(" ") });
+            return Err(SelectError::UnknownChapter {
+                chapter: chapter.clone(),
+                known: all.join(" "),
+            });
         }
     }
     let everything = ids.is_empty() && chapters.is_empty();
@@ -150,14 +164,21 @@ pub fn select(known: &[Item], ids: &[String], chapters: &[String]) -> Result<Vec
 
 /// The exit code that the records of a run call for.
 pub fn exit_code(records: &[Record]) -> u8 {
-    if records.iter().all(Record::is_as_registered) { 0 } else { DIFFERS }
+    if records.iter().all(Record::is_as_registered) {
+        0
+    } else {
+        DIFFERS
+    }
 }
 
 fn listing(items: &[Item]) -> String {
     let line = |claim: &Claim| match claim.expected {
         Expected::Holds => format!("           claim: {}\n", claim.text),
         Expected::DoesNotHold { reason } => {
-            format!("           claim, registered as not holding: {} (because {reason})\n", claim.text)
+            format!(
+                "           claim, registered as not holding: {} (because {reason})\n",
+                claim.text
+            )
         }
     };
     let entry = |item: &Item| {
@@ -179,10 +200,20 @@ fn lines(record: &Record) -> Vec<String> {
         Status::Failed { error } => format!("FAILED: {error}"),
     };
     let mut lines = vec![format!("{:<10} {how}", record.id)];
-    for claim in record.claims.iter().filter(|claim| !claim.pass || !claim.as_registered()) {
-        let because = claim.reason.as_ref().map(|reason| format!(", because {reason}")).unwrap_or_default();
+    for claim in record
+        .claims
+        .iter()
+        .filter(|claim| !claim.pass || !claim.as_registered())
+    {
+        let because = claim
+            .reason
+            .as_ref()
+            .map(|reason| format!(", because {reason}"))
+            .unwrap_or_default();
         let (text, verdict, measured) = (&claim.text, claim.verdict(), &claim.measured);
-        lines.push(format!("           {text}: {verdict}: measured {measured}{because}"));
+        lines.push(format!(
+            "           {text}: {verdict}: measured {measured}{because}"
+        ));
     }
     lines
 }
@@ -193,8 +224,14 @@ fn closing(records: &[Record]) -> String {
     let photographs = count(|s| matches!(s, Status::NotReproducible { .. }));
     let failed = count(|s| matches!(s, Status::Failed { .. }));
     let claims: Vec<_> = records.iter().flat_map(|record| &record.claims).collect();
-    let held = claims.iter().filter(|claim| claim.pass && claim.as_registered()).count();
-    let not_held = claims.iter().filter(|claim| !claim.pass && claim.as_registered()).count();
+    let held = claims
+        .iter()
+        .filter(|claim| claim.pass && claim.as_registered())
+        .count();
+    let not_held = claims
+        .iter()
+        .filter(|claim| !claim.pass && claim.as_registered())
+        .count();
     let differing = claims.len() - held - not_held;
     format!(
         "{drawn} drawn, {photographs} not reproducible, {failed} failed; claims: {held} hold, {not_held} do not hold \
@@ -218,14 +255,22 @@ impl Progress {
             }
             bar
         });
-        Self { bar, total, ended: AtomicUsize::new(0) }
+        Self {
+            bar,
+            total,
+            ended: AtomicUsize::new(0),
+        }
     }
 
     fn ended(&self, record: &Record) {
         let number = self.ended.fetch_add(1, Ordering::Relaxed) + 1;
         let width = self.total.to_string().len();
         for (i, line) in lines(record).into_iter().enumerate() {
-            let head = if i == 0 { format!("[{number:>width$}/{}] ", self.total) } else { String::new() };
+            let head = if i == 0 {
+                format!("[{number:>width$}/{}] ", self.total)
+            } else {
+                String::new()
+            };
             match &self.bar {
                 Some(bar) => bar.println(format!("{head}{line}")),
                 None => println!("{head}{line}"),

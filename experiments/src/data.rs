@@ -88,7 +88,9 @@ impl DataTable {
     pub fn from_columns(columns: &[(&str, &[f64])]) -> Self {
         let mut table = Self::new(columns.iter().map(|(name, _)| *name));
         let length = columns.iter().map(|(_, values)| values.len()).min().unwrap_or(0);
-        table.rows = (0..length).map(|i| columns.iter().map(|(_, values)| values[i].into()).collect()).collect();
+        table.rows = (0..length)
+            .map(|i| columns.iter().map(|(_, values)| values[i].into()).collect())
+            .collect();
         table
     }
 
@@ -119,7 +121,9 @@ impl DataTable {
         for row in &self.rows {
             writer.write_record(row.iter().map(Cell::to_text))?;
         }
-        writer.into_inner().map_err(|error| csv::Error::from(io::Error::other(error.to_string())))
+        writer
+            .into_inner()
+            .map_err(|error| csv::Error::from(io::Error::other(error.to_string())))
     }
 }
 

@@ -43,7 +43,13 @@ impl Drawing {
     }
 
     fn new(body: Body) -> Self {
-        Self { body, data: Vec::new(), scenario: None, findings: Vec::new(), notes: Vec::new() }
+        Self {
+            body,
+            data: Vec::new(),
+            scenario: None,
+            findings: Vec::new(),
+            notes: Vec::new(),
+        }
     }
 
     /// Adds the data drawn, written as `<id>.csv`.
@@ -68,7 +74,11 @@ impl Drawing {
 
     /// Records what the run found for a registered claim: whether it holds, and the measured number with its unit.
     pub fn check(mut self, claim: Claim, pass: bool, measured: impl Into<String>) -> Self {
-        self.findings.push(Finding { text: claim.text.into(), pass, measured: measured.into() });
+        self.findings.push(Finding {
+            text: claim.text.into(),
+            pass,
+            measured: measured.into(),
+        });
         self
     }
 
@@ -91,7 +101,10 @@ pub struct DisplayTable {
 impl DisplayTable {
     /// An empty table with these column headings.
     pub fn new<S: Into<String>>(header: impl IntoIterator<Item = S>) -> Self {
-        Self { header: header.into_iter().map(Into::into).collect(), rows: Vec::new() }
+        Self {
+            header: header.into_iter().map(Into::into).collect(),
+            rows: Vec::new(),
+        }
     }
 
     /// Appends a row.
@@ -103,13 +116,21 @@ impl DisplayTable {
     pub fn to_html(&self) -> String {
         let cells = |tag: &str, row: &[String]| -> String {
             let cell = |content: &String| {
-                let class = if is_number(content) { " class=\"number\"" } else { "" };
+                let class = if is_number(content) {
+                    " class=\"number\""
+                } else {
+                    ""
+                };
                 format!("<{tag}{class}>{}</{tag}>", text::html(content))
             };
             row.iter().map(cell).collect()
         };
         let head = cells("th", &self.header);
-        let body: String = self.rows.iter().map(|row| format!("<tr>{}</tr>\n", cells("td", row))).collect();
+        let body: String = self
+            .rows
+            .iter()
+            .map(|row| format!("<tr>{}</tr>\n", cells("td", row)))
+            .collect();
         format!("<table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n")
     }
 }
@@ -129,7 +150,10 @@ mod tests {
         table.push(["a < b", "−1.2"]);
         let html = table.to_html();
         assert!(html.contains("<th><i>K</i><sub>T</sub></th>"), "{html}");
-        assert!(html.contains("<td>a &lt; b</td><td class=\"number\">−1.2</td>"), "{html}");
+        assert!(
+            html.contains("<td>a &lt; b</td><td class=\"number\">−1.2</td>"),
+            "{html}"
+        );
     }
 
     #[test]

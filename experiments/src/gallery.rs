@@ -30,12 +30,24 @@ pub fn page(items: &[Item], summary: &Summary, table: impl Fn(&str) -> String) -
     let mut body = String::new();
     for chapter in chapters {
         let name = chapter_name(chapter);
-        let _ = write!(contents, "<li><a href=\"#chapter-{chapter}\">{name}</a><div class=\"ids\">");
+        let _ = write!(
+            contents,
+            "<li><a href=\"#chapter-{chapter}\">{name}</a><div class=\"ids\">"
+        );
         let _ = writeln!(body, "<section>\n<h2 id=\"chapter-{chapter}\">{name}</h2>");
         for item in items.iter().filter(|item| item.chapter() == chapter) {
             let record = summary.get(item.id);
-            let short = if item.id.starts_with("table-") { format!("T {}", item.number()) } else { item.id.into() };
-            let _ = write!(contents, "<a class=\"{}\" href=\"#{}\">{short}</a> ", mood(record), item.id);
+            let short = if item.id.starts_with("table-") {
+                format!("T {}", item.number())
+            } else {
+                item.id.into()
+            };
+            let _ = write!(
+                contents,
+                "<a class=\"{}\" href=\"#{}\">{short}</a> ",
+                mood(record),
+                item.id
+            );
             body += &article(item, record, &table);
         }
         contents += "</div></li>\n";
@@ -67,7 +79,11 @@ fn chapter_name(chapter: &str) -> String {
         "G" => "Properties",
         _ => "",
     };
-    let noun = if chapter.starts_with(|c: char| c.is_ascii_digit()) { "Chapter" } else { "Appendix" };
+    let noun = if chapter.starts_with(|c: char| c.is_ascii_digit()) {
+        "Chapter"
+    } else {
+        "Appendix"
+    };
     let separator = if title.is_empty() { "" } else { ". " };
     format!("{noun} {chapter}{separator}{title}")
 }
@@ -77,19 +93,38 @@ fn mood(record: Option<&Record>) -> &'static str {
     match record {
         None => "absent",
         Some(record) if !record.is_as_registered() => "bad",
-        Some(Record { status: Status::NotReproducible { .. }, .. }) => "absent",
+        Some(Record {
+            status: Status::NotReproducible { .. },
+            ..
+        }) => "absent",
         Some(_) => "good",
     }
 }
 
 fn totals(summary: &Summary) -> String {
-    let drawn = summary.items.iter().filter(|record| record.status == Status::Drawn).count();
+    let drawn = summary
+        .items
+        .iter()
+        .filter(|record| record.status == Status::Drawn)
+        .count();
     let claims: Vec<&ClaimRecord> = summary.items.iter().flat_map(|record| &record.claims).collect();
-    let held = claims.iter().filter(|claim| claim.pass && claim.as_registered()).count();
-    let not_held = claims.iter().filter(|claim| !claim.pass && claim.as_registered()).count();
+    let held = claims
+        .iter()
+        .filter(|claim| claim.pass && claim.as_registered())
+        .count();
+    let not_held = claims
+        .iter()
+        .filter(|claim| !claim.pass && claim.as_registered())
+        .count();
     let seconds: f64 = summary.items.iter().map(|record| record.seconds).sum();
-    let bad = summary.items.iter().filter(|record| !record.is_as_registered()).count();
-    let alarm = if bad == 0 { String::new() } else { format!("<p class=\"error\">{bad} items need attention</p>\n") };
+    let bad = summary.items.iter().filter(|record| !record.is_as_registered());
+    let bad: Vec<String> = bad
+        .map(|record| format!("<a href=\"#{0}\">{0}</a>", record.id))
+        .collect();
+    let alarm = match bad.as_slice() {
+        [] => String::new(),
+        bad => format!("<p class=\"error\">To be looked at: {}</p>\n", bad.join(", ")),
+    };
     format!(
         "<p class=\"totals\">{drawn} drawn in {seconds:.1} s. Of {} claims, {held} hold and {not_held} do not hold, as \
          registered.</p>\n{alarm}",
@@ -99,9 +134,17 @@ fn totals(summary: &Summary) -> String {
 
 fn article(item: &Item, record: Option<&Record>, table: &impl Fn(&str) -> String) -> String {
     let title = text::html(item.title);
-    let mut out = format!("<article id=\"{}\">\n<h3><span>{}</span> {title}</h3>\n", item.id, item.heading());
+    let mut out = format!(
+        "<article id=\"{}\">\n<h3><span>{}</span> {title}</h3>\n",
+        item.id,
+        item.heading()
+    );
     let Some(record) = record else {
-        let _ = writeln!(out, "<p>{}</p>\n<p class=\"absent\">Not made yet.</p>\n</article>", text::html(item.description));
+        let _ = writeln!(
+            out,
+            "<p>{}</p>\n<p class=\"absent\">Not made yet.</p>\n</article>",
+            text::html(item.description)
+        );
         return out;
     };
     if record.files.iter().any(|file| file.ends_with(".svg")) {
@@ -128,7 +171,9 @@ fn article(item: &Item, record: Option<&Record>, table: &impl Fn(&str) -> String
 fn status_line(status: &Status) -> String {
     match status {
         Status::Drawn => String::new(),
-        Status::NotReproducible { reason } => format!("<p class=\"absent\">Not reproducible: {}.</p>\n", escape(reason)),
+        Status::NotReproducible { reason } => {
+            format!("<p class=\"absent\">Not reproducible: {}.</p>\n", escape(reason))
+        }
         Status::Failed { error } => format!("<p class=\"error\">Failed: {}</p>\n", escape(error)),
     }
 }
@@ -143,7 +188,11 @@ fn claims(claims: &[ClaimRecord]) -> String {
             (true, false) => "known",
             (false, _) => "bad",
         };
-        let reason = claim.reason.as_ref().map(|r| format!(", because {}", text::html(r))).unwrap_or_default();
+        let reason = claim
+            .reason
+            .as_ref()
+            .map(|r| format!(", because {}", text::html(r)))
+            .unwrap_or_default();
         format!(
             "<li class=\"{class}\"><b>{}</b> {}<br><small>measured {}{reason}</small></li>\n",
             claim.verdict(),
@@ -151,7 +200,10 @@ fn claims(claims: &[ClaimRecord]) -> String {
             text::html(&claim.measured)
         )
     };
-    format!("<ul class=\"claims\">\n{}</ul>\n", claims.iter().map(row).collect::<String>())
+    format!(
+        "<ul class=\"claims\">\n{}</ul>\n",
+        claims.iter().map(row).collect::<String>()
+    )
 }
 
 fn footer(item: &Item, record: &Record) -> String {
@@ -164,5 +216,9 @@ fn footer(item: &Item, record: &Record) -> String {
         parts.push(format!("{:.2} s{quick}", record.seconds));
     }
     parts.extend(shown.map(link));
-    if parts.is_empty() { String::new() } else { format!("<p class=\"footer\">{}</p>\n", parts.join(" · ")) }
+    if parts.is_empty() {
+        String::new()
+    } else {
+        format!("<p class=\"footer\">{}</p>\n", parts.join(" · "))
+    }
 }

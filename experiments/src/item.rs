@@ -42,14 +42,26 @@ impl Item {
     /// Reading order: chapters 1 to 7, appendices A to G; within one, figures before tables.
     pub fn order(&self) -> (bool, &'static str, bool, u32) {
         let position = self.number().split('.').nth(1).unwrap_or_default();
-        let digits = position.split(|c: char| !c.is_ascii_digit()).next().unwrap_or_default();
+        let digits = position
+            .split(|c: char| !c.is_ascii_digit())
+            .next()
+            .unwrap_or_default();
         let appendix = self.chapter().starts_with(|c: char| c.is_ascii_alphabetic());
-        (appendix, self.chapter(), self.id.starts_with("table-"), digits.parse().unwrap_or(u32::MAX))
+        (
+            appendix,
+            self.chapter(),
+            self.id.starts_with("table-"),
+            digits.parse().unwrap_or(u32::MAX),
+        )
     }
 
     /// The heading of the item: `Figure 6.4` or `Table 4.3`.
     pub fn heading(&self) -> String {
-        let noun = if self.id.starts_with("table-") { "Table" } else { "Figure" };
+        let noun = if self.id.starts_with("table-") {
+            "Table"
+        } else {
+            "Figure"
+        };
         format!("{noun} {}", self.number())
     }
 }
@@ -97,11 +109,14 @@ impl Origin {
     }
 }
 
+/// A function that makes an item.
+pub type Draw = fn(&Context) -> Result<Drawing, ItemError>;
+
 /// How an [`Item`] is made.
 #[derive(Clone, Copy, Debug)]
 pub enum Make {
     /// By this function.
-    Draw(fn(&Context) -> Result<Drawing, ItemError>),
+    Draw(Draw),
     /// Not at all, for this reason (photographs).
     NotReproducible(&'static str),
 }
@@ -117,7 +132,10 @@ pub struct Context {
 impl Context {
     /// A context whose data are those of the repository at `root`.
     pub fn new(root: impl Into<PathBuf>, quick: bool) -> Self {
-        Self { quick, root: root.into() }
+        Self {
+            quick,
+            root: root.into(),
+        }
     }
 
     /// The context of the repository this crate was built in; what tests of items use.

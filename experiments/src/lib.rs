@@ -16,6 +16,7 @@ pub mod cli;
 pub mod data;
 pub mod drawing;
 pub mod figures;
+pub mod flight;
 pub mod gallery;
 pub mod item;
 pub mod output;

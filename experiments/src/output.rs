@@ -54,7 +54,10 @@ pub fn write(folder: &Path, id: &str, drawing: &Drawing) -> Result<Vec<String>, 
     }
     for (name, table) in &drawing.data {
         let file = csv_name(id, name);
-        let content = table.to_csv().map_err(|source| OutputError::Csv { file: file.clone(), source })?;
+        let content = table.to_csv().map_err(|source| OutputError::Csv {
+            file: file.clone(),
+            source,
+        })?;
         save(file, &content)?;
     }
     if let Some(settings) = &drawing.scenario {
@@ -65,7 +68,11 @@ pub fn write(folder: &Path, id: &str, drawing: &Drawing) -> Result<Vec<String>, 
 
 /// File name of a table of data: `6.4.csv`, or `6.4-inputs.csv` for a further one.
 pub fn csv_name(id: &str, name: &str) -> String {
-    if name.is_empty() { format!("{id}.csv") } else { format!("{id}-{name}.csv") }
+    if name.is_empty() {
+        format!("{id}.csv")
+    } else {
+        format!("{id}-{name}.csv")
+    }
 }
 
 /// Writes a file by way of a neighbour, so that an interrupted run leaves the old or the new one, never half.
@@ -76,5 +83,8 @@ pub fn save_file(path: &Path, content: &[u8]) -> Result<(), OutputError> {
     let mut partial = path.as_os_str().to_owned();
     partial.push(".partial");
     let written = fs::write(&partial, content).and_then(|()| fs::rename(&partial, path));
-    written.map_err(|source| OutputError::Write { path: path.to_owned(), source })
+    written.map_err(|source| OutputError::Write {
+        path: path.to_owned(),
+        source,
+    })
 }

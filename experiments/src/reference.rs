@@ -84,7 +84,10 @@ pub fn sample(count: usize) -> Vec<usize> {
 /// # Errors
 /// A ragged table, or a file that cannot be written.
 pub fn bless(folder: &Path, file: &str, table: &DataTable) -> Result<(), OutputError> {
-    let create = |source: io::Error| OutputError::Write { path: folder.to_owned(), source };
+    let create = |source: io::Error| OutputError::Write {
+        path: folder.to_owned(),
+        source,
+    };
     fs::create_dir_all(folder).map_err(create)?;
     let kept = kept_columns(table);
     let mut columns = vec![format!("{ROW}{}", table.rows.len())];
@@ -95,7 +98,10 @@ pub fn bless(folder: &Path, file: &str, table: &DataTable) -> Result<(), OutputE
         cells.extend(kept.iter().filter_map(|&c| table.rows[row].get(c).cloned()));
         reference.rows.push(cells);
     }
-    let content = reference.to_csv().map_err(|source| OutputError::Csv { file: file.to_owned(), source })?;
+    let content = reference.to_csv().map_err(|source| OutputError::Csv {
+        file: file.to_owned(),
+        source,
+    })?;
     save_file(&folder.join(file), &content)
 }
 
@@ -114,11 +120,22 @@ pub fn check(folder: &Path, file: &str, table: &DataTable) -> Result<(), CheckEr
     let found: Vec<&str> = kept.iter().map(|&c| table.columns[c].as_str()).collect();
     if header.get(1..).unwrap_or_default() != found {
         let expected = header.get(1..).unwrap_or_default().join(", ");
-        return Err(CheckError::Columns { file, found: found.join(", "), expected });
+        return Err(CheckError::Columns {
+            file,
+            found: found.join(", "),
+            expected,
+        });
     }
-    let expected = header[0].strip_prefix(ROW).and_then(|n| n.parse().ok()).unwrap_or(0);
+    let expected = header[0]
+        .strip_prefix(ROW)
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(0);
     if table.rows.len() != expected {
-        return Err(CheckError::Rows { file, found: table.rows.len(), expected });
+        return Err(CheckError::Rows {
+            file,
+            found: table.rows.len(),
+            expected,
+        });
     }
     for (k, &column) in kept.iter().enumerate() {
         let references: Vec<&str> = rows.iter().map(|row| row[k + 1].as_str()).collect();
@@ -127,7 +144,14 @@ pub fn check(folder: &Path, file: &str, table: &DataTable) -> Result<(), CheckEr
             let found = &table.rows[row][column];
             if !agrees(found, expected, allowed) {
                 let (column, found) = (table.columns[column].clone(), found.to_text());
-                return Err(CheckError::Value { file, row, column, found, expected: expected.into(), allowed });
+                return Err(CheckError::Value {
+                    file,
+                    row,
+                    column,
+                    found,
+                    expected: expected.into(),
+                    allowed,
+                });
             }
         }
     }
@@ -135,21 +159,31 @@ pub fn check(folder: &Path, file: &str, table: &DataTable) -> Result<(), CheckEr
 }
 
 fn kept_columns(table: &DataTable) -> Vec<usize> {
-    (0..table.columns.len()).filter(|&c| !table.volatile.contains(&table.columns[c])).collect()
+    (0..table.columns.len())
+        .filter(|&c| !table.volatile.contains(&table.columns[c]))
+        .collect()
 }
 
 fn read(path: &Path) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
     let mut reader = csv::Reader::from_path(path)?;
     let words = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
     let header = words(reader.headers()?);
-    let rows = reader.records().map(|record| record.map(|r| words(&r))).collect::<Result<_, _>>()?;
+    let rows = reader
+        .records()
+        .map(|record| record.map(|r| words(&r)))
+        .collect::<Result<_, _>>()?;
     Ok((header, rows))
 }
 
 /// Range of a column of the reference; its magnitude where it is constant, 1 where it is zero throughout.
 fn range(values: &[&str]) -> f64 {
-    let numbers = values.iter().filter_map(|v| v.parse::<f64>().ok()).filter(|v| v.is_finite());
-    let (low, high) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (f64::min(l, v), f64::max(h, v)));
+    let numbers = values
+        .iter()
+        .filter_map(|v| v.parse::<f64>().ok())
+        .filter(|v| v.is_finite());
+    let (low, high) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+        (f64::min(l, v), f64::max(h, v))
+    });
     match (high - low, low.abs().max(high.abs())) {
         (range, _) if range > 0.0 => range,
         (_, magnitude) if magnitude.is_finite() && magnitude > 0.0 => magnitude,
@@ -172,13 +206,19 @@ mod tests {
         let mut table = DataTable::new(["level", "t_s", "z_m", "wall_s"]).with_volatile("wall_s");
         for i in 0..500u16 {
             let t = f64::from(i) * 0.01;
-            table.push(["level 1".into(), t.into(), (10.0 * t.sin() + offset).into(), (offset * 7.0).into()]);
+            table.push([
+                "level 1".into(),
+                t.into(),
+                (10.0 * t.sin() + offset).into(),
+                (offset * 7.0).into(),
+            ]);
         }
         table
     }
 
     fn folder(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("experiments-reference-{name}-{}", std::process::id()));
+        let folder =
+            std::env::temp_dir().join(format!("experiments-reference-{name}-{}", std::process::id()));
         fs::create_dir_all(&folder).expect("a folder for temporary files");
         folder
     }
@@ -187,25 +227,50 @@ mod tests {
     fn prop_the_tolerance_is_relative_to_the_range() {
         let folder = folder("range");
         bless(&folder, "x.csv", &table(0.0)).expect("blessed");
-        assert_eq!(fs::read_to_string(folder.join("x.csv")).expect("written").lines().count(), MAX_ROWS + 1);
+        assert_eq!(
+            fs::read_to_string(folder.join("x.csv"))
+                .expect("written")
+                .lines()
+                .count(),
+            MAX_ROWS + 1
+        );
         // z has a range of about 20 m, so that 1e-6 of it is 2e-5 m.
         check(&folder, "x.csv", &table(0.0)).expect("the same data agree");
         check(&folder, "x.csv", &table(1e-5)).expect("within the tolerance");
         let error = check(&folder, "x.csv", &table(1e-4)).expect_err("beyond the tolerance");
-        assert!(matches!(&error, CheckError::Value { column, .. } if column == "z_m"), "{error}");
+        assert!(
+            matches!(&error, CheckError::Value { column, .. } if column == "z_m"),
+            "{error}"
+        );
         fs::remove_dir_all(folder).expect("removed");
     }
 
     #[test]
     fn prop_rows_columns_and_missing_files_are_noticed() {
         let folder = folder("shape");
-        assert!(matches!(check(&folder, "x.csv", &table(0.0)), Err(CheckError::Missing { .. })));
+        assert!(matches!(
+            check(&folder, "x.csv", &table(0.0)),
+            Err(CheckError::Missing { .. })
+        ));
         bless(&folder, "x.csv", &table(0.0)).expect("blessed");
         let mut shorter = table(0.0);
         shorter.rows.pop();
-        assert!(matches!(check(&folder, "x.csv", &shorter), Err(CheckError::Rows { found: 499, expected: 500, .. })));
-        let renamed = DataTable { columns: ["a", "b", "c", "wall_s"].map(String::from).into(), ..table(0.0) };
-        assert!(matches!(check(&folder, "x.csv", &renamed), Err(CheckError::Columns { .. })));
+        assert!(matches!(
+            check(&folder, "x.csv", &shorter),
+            Err(CheckError::Rows {
+                found: 499,
+                expected: 500,
+                ..
+            })
+        ));
+        let renamed = DataTable {
+            columns: ["a", "b", "c", "wall_s"].map(String::from).into(),
+            ..table(0.0)
+        };
+        assert!(matches!(
+            check(&folder, "x.csv", &renamed),
+            Err(CheckError::Columns { .. })
+        ));
         fs::remove_dir_all(folder).expect("removed");
     }
 

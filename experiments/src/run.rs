@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::claim::judge;
 use crate::drawing::Drawing;
 use crate::gallery;
-use crate::item::{Context, Item, Make};
+use crate::item::{Context, Draw, Item, Make};
 use crate::output::{self, OutputError};
 use crate::reference::{self, CheckError};
 use crate::summary::{Record, Status, Summary, SummaryError};
@@ -85,7 +85,10 @@ pub fn run(
     options: &Options,
     report: impl Fn(&Record) + Sync,
 ) -> Result<Vec<Record>, RunError> {
-    let folder = |source| RunError::Folder { path: options.out.clone(), source };
+    let folder = |source| RunError::Folder {
+        path: options.out.clone(),
+        source,
+    };
     fs::create_dir_all(&options.out).map_err(folder)?;
     let jobs = options.jobs;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
@@ -121,13 +124,19 @@ pub fn make_item(item: &Item, options: &Options) -> Record {
         notes: Vec::new(),
     };
     match item.make {
-        Make::NotReproducible(reason) => record.status = Status::NotReproducible { reason: reason.into() },
-        Make::Draw(draw) => match guarded(draw, &options.context) {
-            Ok(drawing) => finish(item, &drawing, options, &mut record),
-            Err(error) => record.status = Status::Failed { error },
-        },
+        Make::NotReproducible(reason) => {
+            record.status = Status::NotReproducible {
+                reason: reason.into(),
+            }
+        }
+        Make::Draw(draw) => {
+            match guarded(draw, &options.context) {
+                Ok(drawing) => finish(item, &drawing, options, &mut record),
+                Err(error) => record.status = Status::Failed { error },
+            }
+            record.seconds = start.elapsed().as_secs_f64();
+        }
     }
-    record.seconds = start.elapsed().as_secs_f64();
     record
 }
 
@@ -143,12 +152,17 @@ fn finish(item: &Item, drawing: &Drawing, options: &Options, record: &mut Record
     }
     errors.extend(compare(item.id, drawing, options));
     if !errors.is_empty() {
-        record.status = Status::Failed { error: errors.join("; ") };
+        record.status = Status::Failed {
+            error: errors.join("; "),
+        };
     }
 }
 
 fn compare(id: &str, drawing: &Drawing, options: &Options) -> Vec<String> {
-    let named = drawing.data.iter().map(|(name, table)| (output::csv_name(id, name), table));
+    let named = drawing
+        .data
+        .iter()
+        .map(|(name, table)| (output::csv_name(id, name), table));
     match options.references {
         References::Ignore => Vec::new(),
         References::Check => named
@@ -161,8 +175,6 @@ fn compare(id: &str, drawing: &Drawing, options: &Options) -> Vec<String> {
             .collect(),
     }
 }
-
-type Draw = fn(&Context) -> Result<Drawing, crate::item::ItemError>;
 
 /// Runs an item's function; a panic becomes an error.
 fn guarded(draw: Draw, context: &Context) -> Result<Drawing, String> {
@@ -186,7 +198,9 @@ pub fn quiet_panics() {
 
 fn message_of(payload: &(dyn Any + Send)) -> String {
     let words = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
-    let words = words.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".into());
+    let words = words
+        .or_else(|| payload.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "no message".into());
     match PLACE.with(|place| place.borrow_mut().take()) {
         Some(place) => format!("{words} (at {place})"),
         None => words,

@@ -101,7 +101,9 @@ impl Summary {
     pub fn load(folder: &Path) -> Result<Self, SummaryError> {
         let path = folder.join(FILE);
         match fs::read(&path) {
-            Ok(bytes) => serde_json::from_slice(&bytes).map_err(|source| SummaryError::Parse { path, source }),
+            Ok(bytes) => {
+                serde_json::from_slice(&bytes).map_err(|source| SummaryError::Parse { path, source })
+            }
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
             Err(source) => Err(SummaryError::Read { path, source }),
         }
@@ -131,8 +133,10 @@ impl Summary {
     /// The file cannot be written.
     pub fn save(&self, folder: &Path) -> Result<(), OutputError> {
         let path = folder.join(FILE);
-        let text = serde_json::to_string_pretty(self)
-            .map_err(|error| OutputError::Write { path: path.clone(), source: io::Error::other(error) })?;
+        let text = serde_json::to_string_pretty(self).map_err(|error| OutputError::Write {
+            path: path.clone(),
+            source: io::Error::other(error),
+        })?;
         save_file(&path, (text + "\n").as_bytes())
     }
 }
@@ -148,7 +152,9 @@ mod tests {
             title: "title".into(),
             kind: Kind::Diagram,
             origin: Origin::Schematic,
-            status: Status::NotReproducible { reason: "photograph".into() },
+            status: Status::NotReproducible {
+                reason: "photograph".into(),
+            },
             claims: vec![],
             seconds,
             quick: false,
@@ -159,7 +165,9 @@ mod tests {
 
     #[test]
     fn prop_a_subset_keeps_the_other_results() {
-        let mut summary = Summary { items: vec![record("6.1", 1.0), record("gone", 1.0), record("5.1", 1.0)] };
+        let mut summary = Summary {
+            items: vec![record("6.1", 1.0), record("gone", 1.0), record("5.1", 1.0)],
+        };
         summary.replace(record("6.1", 2.0));
         summary.arrange(&figures::all());
         let found: Vec<_> = summary.items.iter().map(|r| (r.id.as_str(), r.seconds)).collect();
@@ -168,9 +176,17 @@ mod tests {
 
     #[test]
     fn prop_round_trip_and_keys() {
-        let summary = Summary { items: vec![record("1.1", 0.5)] };
+        let summary = Summary {
+            items: vec![record("1.1", 0.5)],
+        };
         let json = serde_json::to_string(&summary).expect("plain data");
-        assert!(json.contains(r#""status":"not-reproducible","reason":"photograph""#), "{json}");
-        assert_eq!(serde_json::from_str::<Summary>(&json).expect("our own text"), summary);
+        assert!(
+            json.contains(r#""status":"not-reproducible","reason":"photograph""#),
+            "{json}"
+        );
+        assert_eq!(
+            serde_json::from_str::<Summary>(&json).expect("our own text"),
+            summary
+        );
     }
 }

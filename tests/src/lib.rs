@@ -1,1 +1,16 @@
-//! placeholder
+//! What the property tests across the crates draw from: random vehicles, states and inputs, and the
+//! models of the family by name, over any scalar.
+//!
+//! The tests themselves stand in `tests/family` (laws between levels, one battery for every model) and
+//! `tests/allocation.rs` (no heap in a step).
+
+mod flights;
+mod models;
+mod vehicles;
+
+pub use flights::{Draw, attitude, body, draw, vector};
+pub use models::{
+    Family, FamilyFive, FamilyFour, FamilyMechanistic, FamilyOne, FamilyThree, FamilyTwo, flat, from_flat,
+    join, phenomena, rate, split,
+};
+pub use vehicles::{vehicle, without_offset};

@@ -25,6 +25,10 @@ fn main() -> ExitCode {
             print!("{USAGE}");
             ExitCode::SUCCESS
         }
+        Some("") => {
+            eprint!("error: no chore given\n\n{USAGE}");
+            ExitCode::from(BAD_USAGE)
+        }
         _ => {
             eprint!("error: unknown chore {chore:?}\n\n{USAGE}");
             ExitCode::from(BAD_USAGE)
@@ -36,7 +40,14 @@ fn main() -> ExitCode {
 fn reproduce_figures(arguments: Vec<OsString>) -> ExitCode {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
-        .args(["run", "--release", "--quiet", "--package", "experiments", "--manifest-path"])
+        .args([
+            "run",
+            "--release",
+            "--quiet",
+            "--package",
+            "experiments",
+            "--manifest-path",
+        ])
         .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml"))
         .arg("--")
         .args(arguments)

@@ -94,6 +94,26 @@ impl<R: Real> AnyQuadrotor<R> {
         })
     }
 
+    /// A vehicle at a level in the middle of a flight, driven by this input.
+    ///
+    /// # Errors
+    /// As [`QuadrotorModel::build`].
+    pub fn from_snapshot(
+        level: Level,
+        vehicle: &Vehicle,
+        phenomena: &PhenomenonSet,
+        snapshot: &Snapshot<R>,
+        input: &Input<R>,
+    ) -> Result<Self, BuildError> {
+        Ok(match level {
+            Level::One => Self::One(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
+            Level::Two => Self::Two(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
+            Level::Three => Self::Three(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
+            Level::Four => Self::Four(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
+            Level::Five => Self::Five(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
+        })
+    }
+
     /// The same flight continued at another level, without a jump in what both levels have: position,
     /// velocity, attitude, rates, and thrust and torque where the new level has states for them.
     ///
@@ -106,14 +126,7 @@ impl<R: Real> AnyQuadrotor<R> {
         phenomena: &PhenomenonSet,
         input: &Input<R>,
     ) -> Result<Self, BuildError> {
-        let snapshot = self.snapshot(input);
-        Ok(match level {
-            Level::One => Self::One(InFlight::adopting(vehicle, phenomena, &snapshot, input)?),
-            Level::Two => Self::Two(InFlight::adopting(vehicle, phenomena, &snapshot, input)?),
-            Level::Three => Self::Three(InFlight::adopting(vehicle, phenomena, &snapshot, input)?),
-            Level::Four => Self::Four(InFlight::adopting(vehicle, phenomena, &snapshot, input)?),
-            Level::Five => Self::Five(InFlight::adopting(vehicle, phenomena, &snapshot, input)?),
-        })
+        Self::from_snapshot(level, vehicle, phenomena, &self.snapshot(input), input)
     }
 
     /// The level.

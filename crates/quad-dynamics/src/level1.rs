@@ -230,6 +230,7 @@ impl<R: Real> Rate<R> for LinearRate<R> {
 impl<R: Real> Flat<R> for LinearState<R> {
     const LEN: usize = 12;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.position.write(out);
         self.velocity.write(&mut out[3..]);
@@ -237,6 +238,7 @@ impl<R: Real> Flat<R> for LinearState<R> {
         self.attitude_rates.write(&mut out[9..]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             position: Vector3::read(values),
@@ -250,6 +252,7 @@ impl<R: Real> Flat<R> for LinearState<R> {
 impl<R: Real> Flat<R> for LinearRate<R> {
     const LEN: usize = 12;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.position.write(out);
         self.velocity.write(&mut out[3..]);
@@ -257,6 +260,7 @@ impl<R: Real> Flat<R> for LinearRate<R> {
         self.attitude_rates.write(&mut out[9..]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             position: Vector3::read(values),

@@ -1,4 +1,73 @@
-//! placeholder
+//! The quadrotor model family: one rigid body in two formalisms, five levels of resolution.
+//!
+//! Each level is a system `ẋ = f(x, u)` over any scalar ([`quad_math::Real`]). Pick it by type
+//! ([`Level1`] to [`Level5`], or [`MechanisticQuadrotor`], the 'truth' behind levels 4 and 5) or by value
+//! ([`AnyQuadrotor`]); both offer the same ([`QuadrotorModel`]).
+//!
+//! | level | rigid body | rotor | switched on by itself | states |
+//! | --- | --- | --- | --- | --- |
+//! | [`Level1`] | linear about hover at the present heading | ideal, `T = K_T u` | | 12 |
+//! | [`Level2`] | Newton-Euler, quaternion | ideal | | 13 |
+//! | [`Level3`] | as 2 | first order, `Ṫ = ω_R (K_T u − T)` | | 17 |
+//! | [`Level4`] | as 2 | identified transfer functions | drag, gyroscopic torque | 29 |
+//! | [`Level5`] | as 2 | polynomials in PWM and voltage, then as 4 | + input limits, voltage sag | 30 |
+//! | [`MechanisticQuadrotor`] | as 2 | motor and propeller, states `Ω`, `V` | as asked | 22 |
+//!
+//! What a model has besides rigid body and rotors is a set of phenomena ([`PhenomenonSet`]), each
+//! switched on and off by itself; [`Level::phenomena`] is the level's own set.
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use quad_dynamics::{Level, Level3, QuadrotorModel, Vehicle};
+//! use quad_math::rk4_step;
+//!
+//! let vehicle = Vehicle::qball_x4(); // or Vehicle::from_toml_str(&text, "my.toml")?
+//! let model = Level3::<f64>::build(&vehicle, &Level::Three.phenomena())?;
+//! let hover = model.hover(Vector3::zeros(), 0.0);
+//!
+//! // Ten per cent more thrust on rotor 3, left: the right side goes down.
+//! let mut input = hover.input;
+//! input.commands[2] *= 1.1;
+//! let mut state = hover.state;
+//! for _ in 0..200 {
+//!     state = rk4_step(&model, &state, &input, 0.001);
+//! }
+//! let flight = model.flight(&state);
+//! assert!(flight.attitude.roll > 0.0 && flight.position.y > 0.0);
+//! # Ok::<(), quad_dynamics::BuildError>(())
+//! ```
+//!
+//! # Where to find an equation
+//!
+//! | equation | code | source |
+//! | --- | --- | --- |
+//! | `m (v̇ + ω × v) = F`, `I ω̇ + ω × I ω = M` | [`RigidBody::derivative`] | thesis 3.3.1, D.1 |
+//! | Euler-Lagrange, translation, inertial velocities | [`RigidBody::lagrange_inertial_acceleration`] | 3.3.2, D.2 |
+//! | Euler-Lagrange, translation, body velocities | [`RigidBody::lagrange_body_velocity_rate`] | 3.3.2, D.2 |
+//! | Euler-Lagrange, rotation, `M(η) η̈ + C(η, η̇) η̇ = J⁻ᵀ M_B` | [`RigidBody::lagrange_euler_acceleration`] | 3.3.2, D.2 |
+//! | linear model about hover | [`Level1`], its `derivative` | 3.3.3 |
+//! | `F = −Σ T_i e_z`, `M_x = L (T_3 − T_4)`, `M_y = L (T_2 − T_1)`, `M_z = −Σ s_i Q_i` | [`RotorGeometry::wrench`] | 3.4 |
+//! | gyroscopic torque `−ω × Σ s_i I_R Ω_i e_z` | [`gyroscopic_torque`] | 3.4 |
+//! | spin-up reaction `−Σ s_i I_R Ω̇_i e_z` | [`SpinningRotors`], in `Quadrotor::spin_moment` | 3.4 |
+//! | drag `−k ∣v∣ v` and rate damping | [`Drag::wrench`] | 3.4 |
+//! | `u* = C u` | [`Vehicle::control_matrix`] | 3.6 |
+//! | rotors | [`quad_rotor`], one type per model | 3.5, 4.5 |
+//! | battery current `Σ d_i (K_v Q_i + I_0)` | [`CurrentDraw`] | choice |
+//! | hover trim | [`QuadrotorModel::hover`], solved in `build.rs` | |
+//!
+//! # Conventions
+//!
+//! World W north-east-down, body B forward-right-down with its origin at the centre of mass; height is `−z`.
+//! Rotors of a '+' layout: 1 rear, 2 front, 3 left, 4 right. Commands are *zeroed* duties
+//! `u_i = ū_i − ū_0` ([`Input`]). SI units, rad. The types do not guard units or frames here: names and
+//! docs say them.
+//!
+//! # Changing the level in flight
+//!
+//! Every model reduces its state to a [`Snapshot`] and adopts one: `upper.adopt(&lower.snapshot(x, u), u)`
+//! lifts, the reverse restricts, and `restrict(lift(x)) = x` between neighbours, headings taken within one
+//! turn. [`AnyQuadrotor::at_level`] does both.
+
 mod any;
 pub mod build;
 mod error;
@@ -8,6 +77,7 @@ mod level1;
 mod model;
 mod phenomenon;
 mod quadrotor;
+mod resolution;
 mod rigid_body;
 pub mod vehicle;
 
@@ -21,5 +91,6 @@ pub use quadrotor::{
     CommandLimits, CurrentDraw, Level2, Level3, Level4, Level5, MechanisticQuadrotor, Quadrotor,
     QuadrotorRate, QuadrotorState, RotorSet, SpinningRotors,
 };
+pub use resolution::{Feature, Resolution};
 pub use rigid_body::{RigidBody, RigidBodyRate, RigidBodyState, Wrench};
 pub use vehicle::{Vehicle, VehicleError};

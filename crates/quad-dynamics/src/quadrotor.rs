@@ -364,6 +364,7 @@ impl<R: Real, X: Rate<R>, Y: Rate<R>> Rate<R> for QuadrotorRate<R, X, Y> {
 impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorState<R, X, Y> {
     const LEN: usize = RigidBodyState::<R>::LEN + 4 * X::LEN + Y::LEN;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.body.write(out);
         self.rotors.write(&mut out[RigidBodyState::<R>::LEN..]);
@@ -371,6 +372,7 @@ impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorState<R, X, Y> {
             .write(&mut out[RigidBodyState::<R>::LEN + 4 * X::LEN..]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             body: RigidBodyState::read(values),
@@ -383,6 +385,7 @@ impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorState<R, X, Y> {
 impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorRate<R, X, Y> {
     const LEN: usize = RigidBodyRate::<R>::LEN + 4 * X::LEN + Y::LEN;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.body.write(out);
         self.rotors.write(&mut out[RigidBodyRate::<R>::LEN..]);
@@ -390,6 +393,7 @@ impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorRate<R, X, Y> {
             .write(&mut out[RigidBodyRate::<R>::LEN + 4 * X::LEN..]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             body: RigidBodyRate::read(values),

@@ -72,7 +72,7 @@ impl<R: Real> RigidBody<R> {
         let down_b = Vector3::new(r_wb.m31, r_wb.m32, r_wb.m33);
         RigidBodyRate {
             position: r_wb * v,
-            velocity: wrench.force / self.mass + down_b * self.gravity - w.cross(v),
+            velocity: wrench.force * (R::one() / self.mass) + down_b * self.gravity - w.cross(v),
             attitude: state.attitude.derivative(w),
             body_rates: self.angular_acceleration(w, &wrench.moment),
         }
@@ -153,6 +153,7 @@ impl<R: Real> Rate<R> for RigidBodyRate<R> {
 impl<R: Real> Flat<R> for RigidBodyState<R> {
     const LEN: usize = 13;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.position.write(out);
         self.velocity.write(&mut out[3..]);
@@ -160,6 +161,7 @@ impl<R: Real> Flat<R> for RigidBodyState<R> {
         self.body_rates.write(&mut out[10..]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             position: Vector3::read(values),
@@ -173,6 +175,7 @@ impl<R: Real> Flat<R> for RigidBodyState<R> {
 impl<R: Real> Flat<R> for RigidBodyRate<R> {
     const LEN: usize = 13;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.position.write(out);
         self.velocity.write(&mut out[3..]);
@@ -180,6 +183,7 @@ impl<R: Real> Flat<R> for RigidBodyRate<R> {
         self.body_rates.write(&mut out[10..]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             position: Vector3::read(values),

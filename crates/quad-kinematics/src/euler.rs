@@ -187,10 +187,12 @@ impl<R: Real> Rate<R> for EulerRates<R> {
 impl<R: Real> Flat<R> for EulerAngles<R> {
     const LEN: usize = 3;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.vector().write(out);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self::from_vector(&Vector3::read(values))
     }
@@ -199,10 +201,12 @@ impl<R: Real> Flat<R> for EulerAngles<R> {
 impl<R: Real> Flat<R> for EulerRates<R> {
     const LEN: usize = 3;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         self.vector().write(out);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self::from_vector(&Vector3::read(values))
     }

@@ -53,7 +53,7 @@ impl Default for AdaptiveOptions {
 pub enum AdaptiveError {
     /// A tolerance that is not a positive, finite number.
     #[error(
-        "tolerances must be positive and finite, not {absolute_tolerance} (absolute) and {relative_tolerance} (relative)"
+        "tolerances must be positive and finite, not {absolute_tolerance} and relative {relative_tolerance}"
     )]
     BadTolerance {
         /// The absolute tolerance given.
@@ -84,7 +84,8 @@ pub enum AdaptiveError {
 /// use quad_math::{AdaptiveOptions, DormandPrince};
 /// let integrator = DormandPrince::new(AdaptiveOptions::default())?;
 /// // A pendulum of one metre, let go at one radian.
-/// let run = integrator.run(|_, x: &Vector2<f64>| Vector2::new(x.y, -9.81 * x.x.sin()), 0.0..10.0, Vector2::x())?;
+/// let swing = |_t: f64, x: &Vector2<f64>| Vector2::new(x.y, -9.81 * x.x.sin());
+/// let run = integrator.run(swing, 0.0..10.0, Vector2::x())?;
 /// assert!(run.is_complete());
 /// let halfway = run.at(5.0).expect("within the span");
 /// assert!(halfway.x.abs() <= 1.0);

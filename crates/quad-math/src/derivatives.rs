@@ -84,13 +84,13 @@ mod tests {
     use proptest::prelude::*;
 
     /// A state with named fields whose rate is another struct, as the vehicles have.
-    #[derive(Clone, Copy)]
+    #[derive(Clone, Copy, Debug)]
     struct Pendulum<R> {
         angle: R,
         speed: R,
     }
 
-    #[derive(Clone, Copy)]
+    #[derive(Clone, Copy, Debug)]
     struct PendulumRate<R> {
         speed: R,
         acceleration: R,

@@ -8,6 +8,7 @@
 //! | `ẋ = f(x, u)` with the input held | one fixed step | [`FixedStep`], [`rk4_step`], [`euler_step`] |
 //! | `ẋ = f(t, x)` and an exact grid | samples, or the instant it diverged | [`Simulation`] on a [`TimeGrid`] |
 //! | `ẋ = f(t, x)` and a tolerance | a solution at any instant | [`DormandPrince`] |
+//! | many vehicles of one model | a step of all, vectorised | [`Batch`] |
 //! | `y = f(x)` | `∂y/∂x` | [`jacobian`] |
 //! | `ẋ = f(x)`, `y = h(x)` | `y, ẏ, ÿ, y⃛`: Lie derivatives | [`output_derivatives`] |
 //! | values and derivatives at two ends | the polynomial between them | [`Segment`] |
@@ -41,11 +42,14 @@
 //! step costs accuracy whatever the order, so put kinks on the ends of steps.
 
 mod adaptive;
+mod batch;
 mod derivatives;
+mod dispatch;
 mod grid;
 mod polynomial;
 mod real;
 mod simulate;
+mod sqrt;
 mod state;
 mod system;
 
@@ -53,10 +57,13 @@ pub use adaptive::{
     AdaptiveError, AdaptiveOptions, AdaptiveRun, AdaptiveStatistics, AdaptiveStatus, DenseStep,
     DormandPrince, DormandPrinceStep, dormand_prince_step,
 };
+pub use batch::{Batch, LANES, MAX_NUMBERS};
 pub use derivatives::{Dual, Taylor3, jacobian, output_derivatives};
+pub use dispatch::{dispatch, instruction_set};
 pub use grid::{GridError, TimeGrid};
 pub use polynomial::{End, Polynomial, Segment, SegmentError};
 pub use real::{F32x8, F64x4, Real, constant};
 pub use simulate::{Sample, Simulation, SimulationRun, SimulationStatus, Tick};
+pub use sqrt::sqrt;
 pub use state::{Flat, Rate, State};
 pub use system::{FixedStep, RateOf, System, euler, euler_step, rk4, rk4_step};

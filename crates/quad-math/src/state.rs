@@ -71,8 +71,10 @@ impl<R: Real> State<R> for () {
 impl<R: Real> Flat<R> for () {
     const LEN: usize = 0;
 
+    #[inline(always)]
     fn write(&self, _out: &mut [R]) {}
 
+    #[inline(always)]
     fn read(_values: &[R]) -> Self {}
 }
 
@@ -100,10 +102,12 @@ impl<R: Real, const N: usize> State<R> for SVector<R, N> {
 impl<R: Real, const N: usize> Flat<R> for SVector<R, N> {
     const LEN: usize = N;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[..N].copy_from_slice(self.as_slice());
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self::from_column_slice(&values[..N])
     }
@@ -138,12 +142,14 @@ impl<R: Real, T: State<R>, const N: usize> State<R> for [T; N] {
 impl<R: Real, T: Flat<R>, const N: usize> Flat<R> for [T; N] {
     const LEN: usize = N * T::LEN;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         for (i, item) in self.iter().enumerate() {
             item.write(&mut out[i * T::LEN..]);
         }
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         std::array::from_fn(|i| T::read(&values[i * T::LEN..]))
     }

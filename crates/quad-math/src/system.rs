@@ -77,7 +77,8 @@ pub fn rk4_step<R: Real, S: System<R> + ?Sized>(
     h: R,
 ) -> S::State {
     rk4(
-        &|_, x: &S::State| system.derivative(x, input),
+        #[inline(always)]
+        |_, x: &S::State| system.derivative(x, input),
         R::zero(),
         state,
         h,
@@ -86,13 +87,13 @@ pub fn rk4_step<R: Real, S: System<R> + ?Sized>(
 
 /// One Euler step of size `h` of `ẋ = f(t, x)`.
 #[inline(always)]
-pub fn euler<R: Real, X: State<R>>(f: &impl Fn(R, &X) -> X::Rate, t: R, x: &X, h: R) -> X {
+pub fn euler<R: Real, X: State<R>>(f: impl Fn(R, &X) -> X::Rate, t: R, x: &X, h: R) -> X {
     x.advanced(h, &f(t, x)).normalised()
 }
 
 /// One step of the classical Runge-Kutta method of size `h` of `ẋ = f(t, x)`.
 #[inline(always)]
-pub fn rk4<R: Real, X: State<R>>(f: &impl Fn(R, &X) -> X::Rate, t: R, x: &X, h: R) -> X {
+pub fn rk4<R: Real, X: State<R>>(f: impl Fn(R, &X) -> X::Rate, t: R, x: &X, h: R) -> X {
     let half = h * constant(0.5);
     let k1 = f(t, x);
     let k2 = f(t + half, &x.advanced(half, &k1));

@@ -146,10 +146,12 @@ impl<R: Real> Rate<R> for BatteryRate<R> {
 impl<R: Real> Flat<R> for BatteryState<R> {
     const LEN: usize = 1;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[0] = self.charge_drawn;
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             charge_drawn: values[0],
@@ -160,10 +162,12 @@ impl<R: Real> Flat<R> for BatteryState<R> {
 impl<R: Real> Flat<R> for BatteryRate<R> {
     const LEN: usize = 1;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[0] = self.charge_drawn;
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             charge_drawn: values[0],

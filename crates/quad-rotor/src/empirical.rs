@@ -131,12 +131,15 @@ impl<R: Real> Cubic<R> {
         (self.k3 * x * constant(3.0) + self.k2 * constant(2.0)) * x + self.k1
     }
 
-    /// The `x` with `value(x) = y`, by Newton's method from `y / k_1`.
+    /// The `x` with `value(x) = y`, `y ≥ 0`, by Newton's method from the root of the quadratic part.
     ///
-    /// Twelve steps: quadratic convergence doubles the digits each time, so a root that is reached at
-    /// all is exact to rounding long before. For cubics that rise through the range of use.
+    /// A cubic that rises and then falls (`k_3 < 0`) takes each value twice; the quadratic part leads to the
+    /// root on the rising branch, where `y / k_1` would overshoot the top. Twelve steps: quadratic convergence
+    /// doubles the digits each time, so a root that is reached at all is exact to rounding long before. For
+    /// cubics that rise through the range of use.
     pub fn inverse(&self, y: R) -> R {
-        let mut x = y / self.k1;
+        let discriminant = self.k1 * self.k1 + self.k2 * y * constant(4.0);
+        let mut x = y * constant(2.0) / (self.k1 + discriminant.simd_max(R::zero()).simd_sqrt());
         for _ in 0..12 {
             x -= (self.value(x) - y) / self.slope(x);
         }
@@ -282,10 +285,12 @@ impl<R: Real> Rate<R> for ResponseRate<R> {
 impl<R: Real> Flat<R> for ResponseState<R> {
     const LEN: usize = 4;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[..4].copy_from_slice(&[self.thrust, self.thrust_rate, self.torque, self.torque_memory]);
     }
 
+    #[inline(always)]
     fn read(v: &[R]) -> Self {
         Self {
             thrust: v[0],
@@ -299,10 +304,12 @@ impl<R: Real> Flat<R> for ResponseState<R> {
 impl<R: Real> Flat<R> for ResponseRate<R> {
     const LEN: usize = 4;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[..4].copy_from_slice(&[self.thrust, self.thrust_rate, self.torque, self.torque_memory]);
     }
 
+    #[inline(always)]
     fn read(v: &[R]) -> Self {
         Self {
             thrust: v[0],

@@ -231,10 +231,12 @@ impl<R: Real> Rate<R> for SpinRate<R> {
 impl<R: Real> Flat<R> for SpinState<R> {
     const LEN: usize = 2;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[..2].copy_from_slice(&[self.speed, self.effective_voltage]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             speed: values[0],
@@ -246,10 +248,12 @@ impl<R: Real> Flat<R> for SpinState<R> {
 impl<R: Real> Flat<R> for SpinRate<R> {
     const LEN: usize = 2;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[..2].copy_from_slice(&[self.speed, self.effective_voltage]);
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self {
             speed: values[0],

@@ -9,7 +9,7 @@
 use quad_math::{Real, constant};
 use std::f64::consts::TAU;
 
-/// Speed below which the law `Ω = √(T/k_T)` is not inverted for rates, rad/s: under it a propeller idles.
+/// Speed below which the law `Ω = √(T/k_T)` is not inverted, rad/s: under it a propeller idles.
 const IDLE_SPEED: f64 = 10.0;
 
 /// The static law of one propeller, `T = k_T Ω²`, `Q = k_Q Ω²`.
@@ -46,9 +46,16 @@ impl<R: Real> Propeller<R> {
     }
 
     /// Speed `Ω = √(T/k_T)`, rad/s, that gives the thrust; 0 for negative thrust (a kink at `T = 0`).
+    ///
+    /// Below 10 rad/s the root is replaced by the line to zero (a kink): the slope of the root is infinite at
+    /// zero, and a derivative of this function must be a number for every thrust.
     #[inline(always)]
     pub fn speed_for_thrust(&self, thrust: R) -> R {
-        (thrust.simd_max(R::zero()) / self.thrust_per_speed_squared).simd_sqrt()
+        let speed_squared = thrust.simd_max(R::zero()) / self.thrust_per_speed_squared;
+        speed_squared
+            / speed_squared
+                .simd_max(constant(IDLE_SPEED * IDLE_SPEED))
+                .simd_sqrt()
     }
 
     /// Spin acceleration `Ω̇ = Ṫ / (2 k_T Ω)`, rad/s², of a propeller whose thrust changes at `Ṫ`, N/s.

@@ -153,10 +153,12 @@ impl<R: Real> Rate<R> for ThrustRate<R> {
 impl<R: Real> Flat<R> for ThrustState<R> {
     const LEN: usize = 1;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[0] = self.thrust;
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self { thrust: values[0] }
     }
@@ -165,10 +167,12 @@ impl<R: Real> Flat<R> for ThrustState<R> {
 impl<R: Real> Flat<R> for ThrustRate<R> {
     const LEN: usize = 1;
 
+    #[inline(always)]
     fn write(&self, out: &mut [R]) {
         out[0] = self.thrust;
     }
 
+    #[inline(always)]
     fn read(values: &[R]) -> Self {
         Self { thrust: values[0] }
     }

@@ -234,6 +234,39 @@ proptest! {
     }
 }
 
+/// The nominal polynomial of the Qball-X4 rises to 1.3 V and falls beyond: the root wanted is the lower one,
+/// although `y / k_1` lies far beyond the top.
+#[test]
+fn exact_cubic_is_inverted_on_its_rising_branch() {
+    let thrust = Cubic {
+        k1: 0.721143,
+        k2: 54.7341,
+        k3: -28.2224,
+    };
+    for x in [0.01, 0.1, 0.25, 0.42, 0.63] {
+        // Newton's last step leaves rounding.
+        assert_relative_eq!(thrust.inverse(thrust.value(x)), x, max_relative = 1e-14);
+    }
+}
+
+/// At and below zero thrust the speed is zero with a finite slope; above idling it is the root.
+#[test]
+fn exact_speed_near_zero_thrust() {
+    let speed = |thrust: f64| {
+        let propeller = mechanistic::<Dual64>().propeller;
+        propeller.speed_for_thrust(Dual64::from(thrust).derivative())
+    };
+    assert_eq!(speed(-1.0), Dual64::new(0.0, 0.0));
+    let k_t = 1.616e-5;
+    // The line to the idle speed of 10 rad/s, Ω = T / (10 k_T); three roundings.
+    assert_relative_eq!(speed(1e-6).re, 1e-6 / (10.0 * k_t), max_relative = 1e-15);
+    assert!(speed(0.0).eps.is_finite() && speed(0.0).re == 0.0);
+    // dΩ/dT = 1 / (2 k_T Ω); a handful of roundings.
+    let hover = speed(3.43);
+    assert_relative_eq!(hover.re, (3.43_f64 / k_t).sqrt(), max_relative = 1e-15);
+    assert_relative_eq!(hover.eps, 1.0 / (2.0 * k_t * hover.re), max_relative = 1e-14);
+}
+
 #[test]
 fn exact_hover_of_the_nominal_rotor() {
     // By hand: Ω = √(3.4335/1.616e-5) = 460.9 rad/s, I = 0.05639 N m · 106.8 + 1.1 = 7.12 A,

@@ -4,12 +4,12 @@
 
 use crate::item::Item;
 
+mod appendix_f;
+mod appendix_g;
 mod chapter_3;
 mod chapter_4;
 mod chapter_5;
 mod chapter_6;
-mod appendix_f;
-mod appendix_g;
 mod photographs;
 
 const CHAPTERS: &[&[Item]] = &[
@@ -31,7 +31,12 @@ pub fn all() -> Vec<Item> {
 
 /// The item with this identifier.
 pub fn find(id: &str) -> Option<Item> {
-    CHAPTERS.iter().copied().flatten().find(|item| item.id == id).copied()
+    CHAPTERS
+        .iter()
+        .copied()
+        .flatten()
+        .find(|item| item.id == id)
+        .copied()
 }
 
 #[cfg(test)]
@@ -43,7 +48,11 @@ mod tests {
     fn prop_identifiers_and_claims_are_unique() {
         let items = all();
         for (i, item) in items.iter().enumerate() {
-            assert!(items[..i].iter().all(|other| other.id != item.id), "{} is registered twice", item.id);
+            assert!(
+                items[..i].iter().all(|other| other.id != item.id),
+                "{} is registered twice",
+                item.id
+            );
             for (j, claim) in item.claims.iter().enumerate() {
                 let repeated = item.claims[..j].iter().any(|other| other.text == claim.text);
                 assert!(!repeated, "{}: \"{}\" is registered twice", item.id, claim.text);
@@ -54,11 +63,25 @@ mod tests {
     #[test]
     fn prop_items_are_described_and_photographs_have_a_reason() {
         for item in all() {
-            assert!(!item.title.is_empty() && !item.title.ends_with('.'), "{}", item.id);
+            assert!(
+                !item.title.is_empty() && !item.title.ends_with('.'),
+                "{}",
+                item.id
+            );
             assert!(item.description.len() > item.title.len(), "{}", item.id);
             let photograph = item.kind == Kind::Photograph;
-            assert_eq!(photograph, matches!(item.make, Make::NotReproducible(_)), "{}", item.id);
-            assert_eq!(item.kind == Kind::Table, item.id.starts_with("table-"), "{}", item.id);
+            assert_eq!(
+                photograph,
+                matches!(item.make, Make::NotReproducible(_)),
+                "{}",
+                item.id
+            );
+            assert_eq!(
+                item.kind == Kind::Table,
+                item.id.starts_with("table-"),
+                "{}",
+                item.id
+            );
         }
     }
 

@@ -36,6 +36,8 @@ pub struct SettledAxis {
     pub scale: Scale,
     /// Distance between ticks of a linear axis.
     pub step: f64,
+    /// Power of ten that the tick labels of a linear axis leave out; it stands once, at the end of the axis.
+    pub exponent: i32,
 }
 
 /// How much of the data's range is left free at each end, where an axis is padded.
@@ -48,17 +50,32 @@ impl Axis {
     /// `target_ticks` is how many ticks would look right.
     pub fn settle(&self, values: impl Iterator<Item = f64>, padded: bool, target_ticks: f64) -> SettledAxis {
         let usable = |v: &f64| v.is_finite() && (self.scale == Scale::Linear || *v > 0.0);
-        let (low, high) = values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (f64::min(low, v), f64::max(high, v))
-        });
+        let (low, high) = values
+            .filter(usable)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+                (f64::min(low, v), f64::max(high, v))
+            });
         let (min, max) = match self.range {
             Some(range) => range,
             None if low > high => (if self.scale == Scale::Log { 0.1 } else { 0.0 }, 1.0),
             None if self.scale == Scale::Log => widen_log(low, high),
             None => widen(low, high, padded),
         };
-        let step = self.step.unwrap_or_else(|| nice_step((max - min) / target_ticks.max(1.0)));
-        SettledAxis { min, max, scale: self.scale, step }
+        let step = self
+            .step
+            .unwrap_or_else(|| nice_step((max - min) / target_ticks.max(1.0)));
+        let exponent = if self.scale == Scale::Linear {
+            common_exponent(min.abs().max(max.abs()))
+        } else {
+            0
+        };
+        SettledAxis {
+            min,
+            max,
+            scale: self.scale,
+            step,
+            exponent,
+        }
     }
 }
 
@@ -83,24 +100,37 @@ fn widen_log(low: f64, high: f64) -> (f64, f64) {
     (10f64.powf(low), 10f64.powf(high))
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is not below `raw`.
+/// 1, 2 or 5 times a power of ten, whichever is nearest to `raw` in ratio.
 pub fn nice_step(raw: f64) -> f64 {
     if !(raw.is_finite() && raw > 0.0) {
         return 1.0;
     }
     let decade = 10f64.powf(raw.log10().floor());
-    // A whisker of slack, so that 0.2000000001 still gives 0.2.
-    let slack = 1.0 + 1e-9;
-    let factor = [1.0, 2.0, 5.0, 10.0].into_iter().find(|factor| factor * decade * slack >= raw);
-    factor.unwrap_or(10.0) * decade
+    let distance = |factor: &f64| (raw / (factor * decade)).ln().abs();
+    let nearest = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.unwrap_or(1.0) * decade
+}
+
+/// Axes whose largest value is below this carry a common power of ten.
+const SMALLEST_PLAIN: f64 = 2e-3;
+/// Axes whose largest value is above this carry a common power of ten.
+const LARGEST_PLAIN: f64 = 5e4;
+
+/// The power of ten, a multiple of three, that the labels of an axis up to `magnitude` leave out.
+fn common_exponent(magnitude: f64) -> i32 {
+    if magnitude == 0.0 || (SMALLEST_PLAIN..=LARGEST_PLAIN).contains(&magnitude) {
+        return 0;
+    }
+    (magnitude.log10() / 3.0).floor() as i32 * 3
 }
 
 impl SettledAxis {
     /// Positions of the ticks.
     pub fn ticks(&self) -> Vec<f64> {
         if self.scale == Scale::Log {
-            let exponents = self.min.log10().ceil() as i32..=self.max.log10().floor() as i32;
-            return exponents.map(|exponent| 10f64.powi(exponent)).collect();
+            return kuva::render::render_utils::generate_ticks_log(self.min, self.max);
         }
         // A thousandth of a step of slack, so that a tick at the very end is not lost to rounding.
         let slack = 1e-3;
@@ -109,10 +139,44 @@ impl SettledAxis {
         (first..=last).map(|i| i as f64 * self.step).collect()
     }
 
-    /// The label of a tick: as many decimals as the step needs, a true minus sign, powers of ten where they are
-    /// shorter.
+    /// The label of a tick: as many decimals as the step needs, and a true minus sign.
     pub fn tick_label(&self, value: f64) -> String {
-        tick_label(value, self.step, self.scale)
+        if self.scale == Scale::Log {
+            return self.log_label(value);
+        }
+        if value.abs() < 1e-6 * self.step {
+            return "0".into();
+        }
+        let unit = 10f64.powi(self.exponent);
+        let sign = if value < 0.0 { "−" } else { "" };
+        format!("{sign}{:.*}", decimals_of(self.step / unit), value.abs() / unit)
+    }
+
+    /// The power of ten that the tick labels leave out: `×10⁻⁶`, or nothing.
+    pub fn exponent_label(&self) -> String {
+        if self.exponent == 0 {
+            String::new()
+        } else {
+            format!("×10{}", superscript(self.exponent))
+        }
+    }
+
+    /// Plain numbers where the whole axis lies between a hundredth and a thousand, powers of ten otherwise.
+    fn log_label(&self, value: f64) -> String {
+        let exponent = value.log10();
+        let decade = exponent.floor() as i32;
+        if self.min >= 0.01 * (1.0 - 1e-9) && self.max <= 1000.0 * (1.0 + 1e-9) {
+            return format!(
+                "{:.*}",
+                (-((exponent + 1e-9).floor() as i32)).max(0) as usize,
+                value
+            );
+        }
+        let power = exponent.round() as i32;
+        if (exponent - f64::from(power)).abs() < 1e-6 {
+            return format!("10{}", superscript(power));
+        }
+        format!("{:.0}·10{}", value / 10f64.powi(decade), superscript(decade))
     }
 
     /// Position along the axis: 0 at the lower end, 1 at the upper.
@@ -124,31 +188,6 @@ impl SettledAxis {
     }
 }
 
-/// Steps below this are labelled with powers of ten.
-const SMALLEST_PLAIN_STEP: f64 = 1e-4;
-/// Values from this on are labelled with powers of ten.
-const LARGEST_PLAIN_VALUE: f64 = 1e5;
-
-/// The label of a tick at `value` where neighbouring ticks are `step` apart.
-pub fn tick_label(value: f64, step: f64, scale: Scale) -> String {
-    let magnitude = value.abs();
-    if scale == Scale::Log {
-        return log_label(value);
-    }
-    if magnitude < 1e-9 * step {
-        return "0".into();
-    }
-    let sign = if value < 0.0 { "−" } else { "" };
-    if step < 0.999 * SMALLEST_PLAIN_STEP || magnitude >= LARGEST_PLAIN_VALUE {
-        let exponent = (magnitude.log10() + 1e-9).floor();
-        let step_exponent = (step.log10() + 1e-9).floor();
-        let decimals = (exponent - step_exponent).max(0.0) as usize;
-        let mantissa = magnitude / 10f64.powf(exponent);
-        return format!("{sign}{mantissa:.decimals$}·10{}", superscript(exponent as i32));
-    }
-    format!("{sign}{magnitude:.*}", decimals_of(step))
-}
-
 /// Decimals that tell multiples of `step` apart: 1 for 0.5, 2 for 0.25.
 fn decimals_of(step: f64) -> usize {
     let distinguishes = |decimals: &usize| {
@@ -157,17 +196,6 @@ fn decimals_of(step: f64) -> usize {
     };
     const MOST_DECIMALS: usize = 6;
     (0..MOST_DECIMALS).find(distinguishes).unwrap_or(MOST_DECIMALS)
-}
-
-fn log_label(value: f64) -> String {
-    let exponent = value.log10();
-    if (exponent - exponent.round()).abs() > 1e-6 {
-        return String::new();
-    }
-    match exponent.round() as i32 {
-        e @ -2..=3 => format!("{:.*}", (-e).max(0) as usize, value),
-        e => format!("10{}", superscript(e)),
-    }
 }
 
 /// An integer in superscript figures: `⁻³`.
@@ -181,22 +209,42 @@ pub fn superscript(value: i32) -> String {
 mod tests {
     use super::*;
 
+    fn labels(min: f64, max: f64, step: f64, scale: Scale, values: &[f64]) -> Vec<String> {
+        let axis = Axis {
+            range: Some((min, max)),
+            step: Some(step),
+            scale,
+            ..Axis::default()
+        };
+        let axis = axis.settle(std::iter::empty(), false, 5.0);
+        values
+            .iter()
+            .map(|v| axis.tick_label(*v))
+            .chain([axis.exponent_label()])
+            .collect()
+    }
+
     #[test]
     fn exact_tick_labels() {
-        let linear = |value, step| tick_label(value, step, Scale::Linear);
-        assert_eq!(linear(-0.5, 0.5), "−0.5");
-        assert_eq!(linear(0.0, 0.5), "0");
-        assert_eq!(linear(1.0, 0.25), "1.00");
-        assert_eq!(linear(20.0, 10.0), "20");
-        assert_eq!(linear(-2e-5, 1e-5), "−2·10⁻⁵");
-        assert_eq!(linear(150_000.0, 50_000.0), "1.5·10⁵");
-        assert_eq!(tick_label(1e-4, 1.0, Scale::Log), "10⁻⁴");
-        assert_eq!(tick_label(0.1, 1.0, Scale::Log), "0.1");
+        let linear = |max: f64, step, values: &[f64]| labels(-max, max, step, Scale::Linear, values);
+        assert_eq!(linear(1.0, 0.5, &[-0.5, 0.0, 1.0]), ["−0.5", "0", "1.0", ""]);
+        assert_eq!(linear(1.0, 0.25, &[1.0]), ["1.00", ""]);
+        assert_eq!(linear(20.0, 10.0, &[20.0]), ["20", ""]);
+        assert_eq!(linear(2e-5, 1e-5, &[-2e-5, 1e-5]), ["−20", "10", "×10⁻⁶"]);
+        assert_eq!(linear(1.5e5, 5e4, &[1.5e5]), ["150", "×10³"]);
+        assert_eq!(
+            labels(0.1, 10.0, 1.0, Scale::Log, &[0.1, 0.2, 5.0]),
+            ["0.1", "0.2", "5", ""]
+        );
+        assert_eq!(
+            labels(1e-4, 1e-2, 1.0, Scale::Log, &[1e-4, 2e-3]),
+            ["10⁻⁴", "2·10⁻³", ""]
+        );
     }
 
     #[test]
     fn exact_nice_steps() {
-        assert_eq!([0.03, 0.2, 0.21, 7.0].map(nice_step), [0.05, 0.2, 0.5, 10.0]);
+        assert_eq!([0.03, 0.2, 0.236, 8.0].map(nice_step), [0.02, 0.2, 0.2, 10.0]);
         assert_eq!(nice_step(f64::NAN), 1.0);
     }
 
@@ -204,7 +252,10 @@ mod tests {
     fn prop_ticks_lie_inside_the_range() {
         let axis = Axis::default().settle([-1.0, 0.3, f64::NAN, 2.7].into_iter(), true, 5.0);
         let ticks = axis.ticks();
-        assert!(ticks.len() >= 3 && ticks.iter().all(|t| (axis.min..=axis.max).contains(t)), "{ticks:?}");
+        assert!(
+            ticks.len() >= 3 && ticks.iter().all(|t| (axis.min..=axis.max).contains(t)),
+            "{ticks:?}"
+        );
         assert!((axis.fraction(axis.min), axis.fraction(axis.max)) == (0.0, 1.0));
     }
 
@@ -212,8 +263,15 @@ mod tests {
     fn prop_degenerate_data_still_give_a_range() {
         for values in [vec![], vec![0.0], vec![3.0, 3.0], vec![f64::INFINITY]] {
             for scale in [Scale::Linear, Scale::Log] {
-                let axis = Axis { scale, ..Axis::default() }.settle(values.clone().into_iter(), true, 5.0);
-                assert!(axis.max > axis.min && axis.step > 0.0, "{values:?} {scale:?} {axis:?}");
+                let axis = Axis {
+                    scale,
+                    ..Axis::default()
+                }
+                .settle(values.clone().into_iter(), true, 5.0);
+                assert!(
+                    axis.max > axis.min && axis.step > 0.0,
+                    "{values:?} {scale:?} {axis:?}"
+                );
             }
         }
     }

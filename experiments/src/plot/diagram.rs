@@ -86,7 +86,9 @@ impl Block {
 impl Diagram {
     /// An empty diagram of this size, px. At most 760 px wide, so that its words keep their size on a page.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { svg: Svg::new(width, height) }
+        Self {
+            svg: Svg::new(width, height),
+        }
     }
 
     /// The finished picture.
@@ -101,19 +103,34 @@ impl Diagram {
         block
     }
 
-    /// Draws a dashed frame around a group, with words at its upper left.
-    pub fn frame(&mut self, block: Block, words: &str) {
-        self.svg.polygon(&block.corners(), block.fill, Some(&CONSTRUCTION));
-        let corner = block.corners()[0];
-        let look = TextLook { size: 11.0, colour: GREY, ..TextLook::default() };
-        self.svg.text(corner.offset(7.0, 15.0), words, look);
+    /// Draws a dashed frame around a group.
+    pub fn frame(&mut self, block: Block) {
+        self.svg
+            .polygon(&block.corners(), block.fill, Some(&CONSTRUCTION));
+    }
+
+    /// Writes small grey words that start at a point, to name a frame.
+    pub fn caption(&mut self, point: Point, words: &str) {
+        self.svg.text(
+            point,
+            words,
+            TextLook {
+                size: 11.0,
+                colour: GREY,
+                ..TextLook::default()
+            },
+        );
     }
 
     /// Draws a summing point; the signs stand in the text around it.
     pub fn sum(&mut self, centre: Point) -> Block {
         let radius = 8.0;
         self.svg.circle(centre, radius, PLAIN, Some(&OUTLINE));
-        Block { centre, size: (2.0 * radius, 2.0 * radius), fill: PLAIN }
+        Block {
+            centre,
+            size: (2.0 * radius, 2.0 * radius),
+            fill: PLAIN,
+        }
     }
 
     /// Draws a dot where a signal branches.
@@ -123,7 +140,7 @@ impl Diagram {
 
     /// Draws a polyline that ends in an arrow head.
     pub fn arrow(&mut self, points: &[Point], look: Look) {
-        let [.., from, tip] = points else { return };
+        let &[.., from, tip] = points else { return };
         let (dx, dy) = (tip.x - from.x, tip.y - from.y);
         let length = dx.hypot(dy).max(1e-9);
         let (ux, uy) = (dx / length, dy / length);
@@ -136,8 +153,13 @@ impl Diagram {
             *last = tip.offset(-0.7 * long * ux, -0.7 * long * uy);
         }
         self.svg.polyline(&shaft, &look);
-        let wings = [tip, base.offset(-half * uy, half * ux), base.offset(half * uy, -half * ux)];
-        self.svg.polygon(&[wings[0], wings[1], wings[2]], look.colour, None);
+        let wings = [
+            tip,
+            base.offset(-half * uy, half * ux),
+            base.offset(half * uy, -half * ux),
+        ];
+        self.svg
+            .polygon(&[wings[0], wings[1], wings[2]], look.colour, None);
     }
 
     /// Draws a line.
@@ -167,16 +189,29 @@ impl Diagram {
     /// Writes words centred at a point, lines separated by `\n`.
     pub fn centred(&mut self, centre: Point, words: &str) {
         let lines: Vec<&str> = words.split('\n').collect();
-        let look = TextLook { size: SIZE, anchor: Anchor::Middle, ..TextLook::default() };
+        let look = TextLook {
+            size: SIZE,
+            anchor: Anchor::Middle,
+            ..TextLook::default()
+        };
         let first = centre.y + 0.36 * SIZE - LEADING * (lines.len() - 1) as f64 / 2.0;
         for (i, line) in lines.iter().enumerate() {
-            self.svg.text(at(centre.x, first + LEADING * i as f64), line, look);
+            self.svg
+                .text(at(centre.x, first + LEADING * i as f64), line, look);
         }
     }
 
     /// Writes words whose base line is centred at a point.
     pub fn text(&mut self, point: Point, words: &str) {
-        self.svg.text(point, words, TextLook { size: SIZE, anchor: Anchor::Middle, ..TextLook::default() });
+        self.svg.text(
+            point,
+            words,
+            TextLook {
+                size: SIZE,
+                anchor: Anchor::Middle,
+                ..TextLook::default()
+            },
+        );
     }
 
     /// Writes words with a look of their own.

@@ -29,13 +29,13 @@ pub enum Sample {
 /// Font size of legends, px.
 const SIZE: f64 = 11.0;
 /// Width of a sample of line, px: long enough for two periods of the longest dash.
-const LINE_SAMPLE: f64 = 34.0;
+const LINE_SAMPLE: f64 = 32.0;
 /// Width of a marker or a patch, px.
 const SHORT_SAMPLE: f64 = 14.0;
 /// Space between sample and words, px.
 const GAP: f64 = 6.0;
 /// Space between entries, px.
-const ENTRY_GAP: f64 = 20.0;
+const ENTRY_GAP: f64 = 16.0;
 /// Height of a row, px.
 const ROW: f64 = 18.0;
 
@@ -46,55 +46,70 @@ pub struct Legend {
 }
 
 impl Legend {
-    /// Breaks the entries, less repetitions, into rows that fit the width, px.
+    /// Breaks the entries, less repetitions, into as few rows of about equal number as fit the width, px.
     pub fn new(entries: impl IntoIterator<Item = Entry>, width: f64) -> Self {
-        let mut rows: Vec<Vec<(Entry, f64)>> = Vec::new();
-        let mut seen: Vec<Entry> = Vec::new();
-        let mut used = 0.0;
+        let mut measured: Vec<(Entry, f64)> = Vec::new();
         for entry in entries {
-            if seen.contains(&entry) {
-                continue;
-            }
-            seen.push(entry.clone());
-            let own = sample_width(entry.sample) + GAP + text::width(&entry.label, SIZE);
-            match rows.last_mut() {
-                Some(row) if used + ENTRY_GAP + own <= width => {
-                    used += ENTRY_GAP + own;
-                    row.push((entry, own));
-                }
-                _ => {
-                    used = own;
-                    rows.push(vec![(entry, own)]);
-                }
+            if measured.iter().all(|(known, _)| *known != entry) {
+                let own = sample_width(entry.sample) + GAP + text::width(&entry.label, SIZE);
+                measured.push((entry, own));
             }
         }
-        Self { rows }
+        let count = measured.len();
+        let split = |rows: usize| {
+            measured
+                .chunks(count.div_ceil(rows))
+                .map(<[_]>::to_vec)
+                .collect::<Vec<_>>()
+        };
+        let fits = |rows: &Vec<Vec<(Entry, f64)>>| rows.iter().all(|row| row_width(row) <= width);
+        let rows = (1..count).map(split).find(fits);
+        Self {
+            rows: rows.unwrap_or_else(|| measured.iter().map(|entry| vec![entry.clone()]).collect()),
+        }
     }
 
     /// Height of the legend, px; zero if it is empty.
     pub fn height(&self) -> f64 {
-        if self.rows.is_empty() { 0.0 } else { self.rows.len() as f64 * ROW + 4.0 }
+        if self.rows.is_empty() {
+            0.0
+        } else {
+            self.rows.len() as f64 * ROW + 4.0
+        }
     }
 
     /// Draws the legend centred about `centre`, its top at `top`.
     pub fn draw(&self, svg: &mut Svg, centre: f64, top: f64) {
         for (i, row) in self.rows.iter().enumerate() {
-            let gaps = ENTRY_GAP * (row.len() - 1) as f64;
-            let total = row.iter().map(|(_, width)| width).sum::<f64>() + gaps;
-            let mut x = centre - total / 2.0;
+            let mut x = centre - row_width(row) / 2.0;
             let y = top + ROW * (i as f64 + 0.5);
             for (entry, width) in row {
                 draw_sample(svg, entry, at(x, y));
                 let words = at(x + sample_width(entry.sample) + GAP, y + 0.36 * SIZE);
-                svg.text(words, &entry.label, TextLook { size: SIZE, ..TextLook::default() });
+                svg.text(
+                    words,
+                    &entry.label,
+                    TextLook {
+                        size: SIZE,
+                        ..TextLook::default()
+                    },
+                );
                 x += width + ENTRY_GAP;
             }
         }
     }
 }
 
+fn row_width(row: &[(Entry, f64)]) -> f64 {
+    row.iter().map(|(_, width)| width + ENTRY_GAP).sum::<f64>() - ENTRY_GAP
+}
+
 fn sample_width(sample: Sample) -> f64 {
-    if sample == Sample::Line { LINE_SAMPLE } else { SHORT_SAMPLE }
+    if sample == Sample::Line {
+        LINE_SAMPLE
+    } else {
+        SHORT_SAMPLE
+    }
 }
 
 fn draw_sample(svg: &mut Svg, entry: &Entry, left: Point) {
@@ -116,17 +131,36 @@ fn draw_sample(svg: &mut Svg, entry: &Entry, left: Point) {
 /// Draws a marker of this radius, px.
 pub(super) fn draw_marker(svg: &mut Svg, centre: Point, look: &Look, radius: f64) {
     let corners = |offsets: &[(f64, f64)]| -> Vec<Point> {
-        offsets.iter().map(|(dx, dy)| centre.offset(dx * radius, dy * radius)).collect()
+        offsets
+            .iter()
+            .map(|(dx, dy)| centre.offset(dx * radius, dy * radius))
+            .collect()
     };
     match look.marker {
         Marker::Circle => svg.circle(centre, radius, look.colour, None),
         Marker::Square => {
-            svg.polygon(&corners(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]), look.colour, None);
+            svg.polygon(
+                &corners(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
+                look.colour,
+                None,
+            );
         }
-        Marker::Triangle => svg.polygon(&corners(&[(-1.0, 0.8), (1.0, 0.8), (0.0, -1.1)]), look.colour, None),
-        Marker::TriangleDown => svg.polygon(&corners(&[(-1.0, -0.8), (1.0, -0.8), (0.0, 1.1)]), look.colour, None),
+        Marker::Triangle => svg.polygon(
+            &corners(&[(-1.0, 0.8), (1.0, 0.8), (0.0, -1.1)]),
+            look.colour,
+            None,
+        ),
+        Marker::TriangleDown => svg.polygon(
+            &corners(&[(-1.0, -0.8), (1.0, -0.8), (0.0, 1.1)]),
+            look.colour,
+            None,
+        ),
         Marker::Diamond => {
-            svg.polygon(&corners(&[(0.0, -1.2), (1.0, 0.0), (0.0, 1.2), (-1.0, 0.0)]), look.colour, None);
+            svg.polygon(
+                &corners(&[(0.0, -1.2), (1.0, 0.0), (0.0, 1.2), (-1.0, 0.0)]),
+                look.colour,
+                None,
+            );
         }
         Marker::Cross => {
             let pen = Look::solid(look.colour, 1.5);

@@ -8,12 +8,15 @@
 //! - [`raster`]: PNG by resvg with embedded fonts, so that a machine without fonts draws the same pictures.
 
 pub mod axis;
+mod chart;
 pub mod decimate;
 pub mod diagram;
 pub mod figure;
+mod layer;
 pub mod legend;
 pub mod panel;
 pub mod raster;
+mod scene;
 pub mod space;
 pub mod style;
 pub mod svg;
@@ -24,3 +27,6 @@ pub use figure::Figure;
 pub use panel::Panel;
 pub use space::Space;
 pub use style::{Controller, Look, controller_style, level_name, level_style, reference_style, series_style};
+
+#[cfg(test)]
+mod tests;

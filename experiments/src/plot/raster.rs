@@ -34,10 +34,18 @@ pub enum RasterError {
 
 static OPTIONS: LazyLock<Options<'static>> = LazyLock::new(|| {
     let mut fonts = fontdb::Database::new();
-    for face in [dejavu::sans::regular(), dejavu::sans::bold(), dejavu::sans::oblique()] {
+    for face in [
+        dejavu::sans::regular(),
+        dejavu::sans::bold(),
+        dejavu::sans::oblique(),
+    ] {
         fonts.load_font_data(face.to_vec());
     }
-    Options { font_family: "DejaVu Sans".into(), fontdb: Arc::new(fonts), ..Options::default() }
+    Options {
+        font_family: "DejaVu Sans".into(),
+        fontdb: Arc::new(fonts),
+        ..Options::default()
+    }
 });
 
 /// The picture as PNG.
@@ -48,9 +56,14 @@ pub fn png(svg: &Svg) -> Result<Vec<u8>, RasterError> {
     let tree = Tree::from_str(&svg.document(), &OPTIONS)?;
     let size = tree.size().to_int_size().scale_by(SCALE);
     let pixmap = size.and_then(|size| Pixmap::new(size.width(), size.height()));
-    let mut pixmap = pixmap.ok_or(RasterError::Size { width: svg.width, height: svg.height })?;
+    let mut pixmap = pixmap.ok_or(RasterError::Size {
+        width: svg.width,
+        height: svg.height,
+    })?;
     resvg::render(&tree, Transform::from_scale(SCALE, SCALE), &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|error| RasterError::Encode(error.to_string()))
+    pixmap
+        .encode_png()
+        .map_err(|error| RasterError::Encode(error.to_string()))
 }
 
 /// Width of the content of an SVG `text` element, px; zero if it draws nothing.

@@ -54,7 +54,12 @@ pub enum Marker {
 impl Look {
     /// A solid line of this colour and width.
     pub const fn solid(colour: &'static str, width: f64) -> Self {
-        Self { colour, dash: "", width, marker: Marker::Circle }
+        Self {
+            colour,
+            dash: "",
+            width,
+            marker: Marker::Circle,
+        }
     }
 
     /// The same with another dash pattern.
@@ -70,12 +75,14 @@ impl Look {
 
 /// The series of looks in their order. Widths fall, so that coinciding curves drawn in order all stay visible.
 const SERIES: [Look; 6] = [
-    Look::solid(BLUE, 2.6),
-    Look::solid(VERMILION, 2.2).dashed("9 4").marked(Marker::Square),
-    Look::solid(GREEN, 2.0).dashed("9 3 2 3").marked(Marker::Triangle),
-    Look::solid(PURPLE, 2.0).dashed("2 2.5").marked(Marker::Diamond),
-    Look::solid(ORANGE, 1.6).dashed("5 2.5").marked(Marker::TriangleDown),
-    Look::solid(SKY, 1.6).dashed("9 3 2 3 2 3").marked(Marker::Cross),
+    Look::solid(BLUE, 2.4),
+    Look::solid(VERMILION, 2.0).dashed("9 4").marked(Marker::Square),
+    Look::solid(GREEN, 1.8).dashed("9 3 2 3").marked(Marker::Triangle),
+    Look::solid(PURPLE, 1.8).dashed("2 2.5").marked(Marker::Diamond),
+    Look::solid(ORANGE, 1.6)
+        .dashed("9 2.5 2 2.5 2 2.5")
+        .marked(Marker::TriangleDown),
+    Look::solid(SKY, 1.4).dashed("4 2").marked(Marker::Cross),
 ];
 
 /// The look of one level of the model family, the same in every figure. Levels run from 1 to 5.
@@ -127,7 +134,10 @@ mod tests {
         for a in 1..=5 {
             for b in 1..a {
                 let (first, second) = (level_style(a), level_style(b));
-                assert!(first.colour != second.colour && first.dash != second.dash, "levels {a} and {b}");
+                assert!(
+                    first.colour != second.colour && first.dash != second.dash,
+                    "levels {a} and {b}"
+                );
             }
         }
     }

@@ -68,14 +68,24 @@ pub struct TextLook {
 
 impl Default for TextLook {
     fn default() -> Self {
-        Self { size: 12.0, anchor: Anchor::Start, colour: super::style::INK, rotation: 0.0, bold: false }
+        Self {
+            size: 12.0,
+            anchor: Anchor::Start,
+            colour: super::style::INK,
+            rotation: 0.0,
+            bold: false,
+        }
     }
 }
 
 impl Svg {
     /// An empty picture of this size, px.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, body: String::new() }
+        Self {
+            width,
+            height,
+            body: String::new(),
+        }
     }
 
     /// The picture as a document on white ground.
@@ -129,14 +139,19 @@ impl Svg {
     /// Adds a closed polygon, filled, with an outline if a look is given.
     pub fn polygon(&mut self, points: &[Point], fill: &str, outline: Option<&Look>) {
         let edge = outline.map(stroke).unwrap_or_default();
-        self.raw(&format!("<path d=\"{}Z\" fill=\"{fill}\"{edge}/>", path_of(points)));
+        self.raw(&format!(
+            "<path d=\"{}Z\" fill=\"{fill}\"{edge}/>",
+            path_of(points)
+        ));
     }
 
     /// Adds a circle, filled, with an outline if a look is given.
     pub fn circle(&mut self, centre: Point, radius: f64, fill: &str, outline: Option<&Look>) {
         let edge = outline.map(stroke).unwrap_or_default();
         let (x, y, r) = (number(centre.x), number(centre.y), number(radius));
-        self.raw(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{edge}/>"));
+        self.raw(&format!(
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{edge}/>"
+        ));
     }
 }
 
@@ -151,7 +166,11 @@ fn path_of(points: &[Point]) -> String {
 
 /// The stroke attributes of a look, with a leading space.
 pub fn stroke(look: &Look) -> String {
-    let mut out = format!(" stroke=\"{}\" stroke-width=\"{}\"", look.colour, number(look.width));
+    let mut out = format!(
+        " stroke=\"{}\" stroke-width=\"{}\"",
+        look.colour,
+        number(look.width)
+    );
     if !look.dash.is_empty() {
         let _ = write!(out, " stroke-dasharray=\"{}\"", look.dash);
     }
@@ -168,7 +187,10 @@ pub fn number(value: f64) -> String {
 
 /// Text made safe for SVG and HTML.
 pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 #[cfg(test)]

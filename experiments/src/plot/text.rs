@@ -71,7 +71,11 @@ fn is_combining(c: char) -> bool {
 fn push(spans: &mut Vec<Span>, c: char, italic: bool, shift: Shift) {
     match spans.last_mut() {
         Some(last) if last.italic == italic && last.shift == shift => last.text.push(c),
-        _ => spans.push(Span { text: c.to_string(), italic, shift }),
+        _ => spans.push(Span {
+            text: c.to_string(),
+            italic,
+            shift,
+        }),
     }
 }
 
@@ -140,7 +144,10 @@ mod tests {
 
     #[test]
     fn exact_markup() {
-        assert_eq!(html("Height *z*_{ref}, m^2"), "Height <i>z</i><sub>ref</sub>, m<sup>2</sup>");
+        assert_eq!(
+            html("Height *z*_{ref}, m^2"),
+            "Height <i>z</i><sub>ref</sub>, m<sup>2</sup>"
+        );
         assert_eq!(html("*θ̇*_x a\\_b"), "<i>θ̇</i><sub>x</sub> a_b");
         assert_eq!(plain("*e*_{z} < 1"), "ez < 1");
     }
@@ -148,7 +155,10 @@ mod tests {
     #[test]
     fn exact_baseline_returns_after_a_subscript() {
         let text = tspans("a_{1}b", 10.0);
-        assert_eq!(text, "a<tspan dy=\"2.2\" font-size=\"7.2\">1</tspan><tspan dy=\"-2.2\">b</tspan>");
+        assert_eq!(
+            text,
+            "a<tspan dy=\"2.2\" font-size=\"7.2\">1</tspan><tspan dy=\"-2.2\">b</tspan>"
+        );
     }
 
     #[test]

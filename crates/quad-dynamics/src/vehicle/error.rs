@@ -76,7 +76,7 @@ pub enum VehicleError {
         unit: &'static str,
     },
     /// Negative or dimensionally absurd: outside what any quadrotor could have.
-    #[error("{origin}: `{key}` = {value} {unit} is outside {minimum} to {maximum} {unit}{}", remark(.hint))]
+    #[error("{origin}: `{key}` = {value} {unit} is {}{}", outside(*.minimum, *.maximum, .unit), remark(.hint))]
     OutOfRange {
         /// Name of the file.
         origin: String,
@@ -100,6 +100,18 @@ pub enum VehicleError {
         origin: String,
         /// Number of rotors found.
         count: usize,
+    },
+    /// The inertia matrix differs from its transpose, which a file cannot write but a program can.
+    #[error(
+        "{origin}: the inertia matrix is not symmetric: {upper} kg·m² above the diagonal, {lower} kg·m² below it"
+    )]
+    AsymmetricInertia {
+        /// Name of the vehicle.
+        origin: String,
+        /// Element above the diagonal, kg·m².
+        upper: f64,
+        /// Its mirror image, kg·m².
+        lower: f64,
     },
     /// The inertia matrix belongs to no distribution of mass.
     #[error(
@@ -169,6 +181,15 @@ pub enum VehicleError {
         /// The model that asked for it.
         needed_by: &'static str,
     },
+}
+
+/// The range that a value is not in; one-sided where there is no upper bound.
+fn outside(minimum: f64, maximum: f64, unit: &str) -> String {
+    if maximum == f64::MAX {
+        format!("below {minimum} {unit}")
+    } else {
+        format!("outside {minimum} to {maximum} {unit}")
+    }
 }
 
 /// A hint as the tail of a sentence, nothing if there is none.

@@ -142,13 +142,22 @@ impl Checker<'_> {
             );
             plausible.check(*moment, self.origin, "")?;
         }
-        for (product, quantity) in [inertia.m12, inertia.m13, inertia.m23]
-            .iter()
-            .zip(&limits::INERTIA_PRODUCT)
-        {
+        let products = [
+            (inertia.m12, inertia.m21),
+            (inertia.m13, inertia.m31),
+            (inertia.m23, inertia.m32),
+        ];
+        for ((upper, lower), quantity) in products.into_iter().zip(&limits::INERTIA_PRODUCT) {
             quantity
                 .within((-bounds.1, bounds.1), "")
-                .check(*product, self.origin, "")?;
+                .check(upper, self.origin, "")?;
+            if upper != lower {
+                return Err(VehicleError::AsymmetricInertia {
+                    origin: self.origin.to_owned(),
+                    upper,
+                    lower,
+                });
+            }
         }
         self.inertia(&vehicle.airframe)
     }

@@ -120,6 +120,25 @@ fn exact_local_order_of_the_step_and_its_extension() {
 }
 
 #[test]
+fn exact_powers_of_time_up_to_the_order() {
+    // ẋ = t^m has x = t^(m + 1)/(m + 1): the step is exact to m = 4, the estimate zero and the extension exact
+    // to m = 3. These are order conditions of every coefficient, so a wrong digit shows.
+    for m in 0..5 {
+        let f = |t: f64, _: &Vector1<f64>| Vector1::new(t.powi(m));
+        let truth = |t: f64| t.powi(m + 1) / f64::from(m + 1);
+        let step = dormand_prince_step(&f, 0.0, &Vector1::zeros(), f(0.0, &Vector1::zeros()), 1.0);
+        // Sums of seven terms up to six in size: a few units of rounding of that.
+        assert_relative_eq!(step.dense.end.x, truth(1.0), epsilon = 1e-14);
+        if m < 4 {
+            assert!(step.error_rate.x.abs() < 1e-16, "t^{m}: {}", step.error_rate.x);
+            for theta in [0.1, 0.35, 0.5, 0.8] {
+                assert_relative_eq!(step.dense.at_fraction(theta).x, truth(theta), epsilon = 1e-15);
+            }
+        }
+    }
+}
+
+#[test]
 fn exact_extension_meets_the_step_at_both_ends() {
     let x = Vector1::new(1.0);
     let step = dormand_prince_step(&bell, 0.0, &x, bell(0.0, &x), 0.2).dense;
@@ -333,7 +352,8 @@ proptest! {
     fn prop_points_are_ordered_and_joined(
         end_s in 0.1..30.0_f64, x in -2.0..2.0_f64, log_tolerance in -10.0..-3.0_f64,
     ) {
-        let run = integrator(10.0_f64.powf(log_tolerance)).run(oscillator, 0.0..end_s, Vector2::new(x, 1.0)).unwrap();
+        let integrator = integrator(10.0_f64.powf(log_tolerance));
+        let run = integrator.run(oscillator, 0.0..end_s, Vector2::new(x, 1.0)).unwrap();
         prop_assert!(run.is_complete());
         let samples: Vec<_> = run.samples().collect();
         prop_assert_eq!(samples.len(), run.statistics.accepted + 1);

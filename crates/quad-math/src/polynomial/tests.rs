@@ -145,8 +145,8 @@ proptest! {
         let ours: [f64; 4] = p.derivatives(s);
         let theirs = [jet.re, jet.v1, jet.v2, jet.v3];
         for k in 0..4 {
-            // Rounding is relative to the sum of the terms' magnitudes, below 10 · 1.5⁹ · 10 · 9 · 8 · 7 = 2e6;
-            // twenty operations of it at 1e-16 each.
+            // Rounding is relative to the sum of the terms' magnitudes, below 10 · 1.5⁹ · 10 · 9 · 8 · 7 =
+            // 2e6; twenty operations of it at 1e-16 each.
             prop_assert!((ours[k] - theirs[k]).abs() < 4e-9);
             prop_assert!((ours[k] - p.derivative(k, s)).abs() < 4e-9);
         }

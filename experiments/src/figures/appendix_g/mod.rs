@@ -1,6 +1,8 @@
-//! Appendix G: properties of vehicle, station and controllers.
+//! Appendix G: data tables.
 
 use crate::item::Item;
 
-/// The items of this chapter.
-pub(super) const ITEMS: &[Item] = &[];
+mod table_g_1;
+
+/// The items of this appendix.
+pub(super) const ITEMS: &[Item] = &[table_g_1::ITEM];

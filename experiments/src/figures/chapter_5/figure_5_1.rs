@@ -18,14 +18,25 @@ pub(super) const ITEM: Item = Item {
 };
 
 fn draw(_: &Context) -> Result<Drawing, ItemError> {
-    let mut diagram = Diagram::new(640.0, 230.0);
-    let model = Block { centre: at(330.0, 150.0), size: (210.0, 92.0), fill: BLUE_TINT };
-    let model = diagram.block(model, "Model equations\n*ẋ* = *f*(*x*, *u*, *p*)\n*y* = *h*(*x*, *u*, *p*)");
-    let small = |x, y| Block { centre: at(x, y), size: (120.0, 46.0), fill: QUIET };
-    let inputs = diagram.block(small(80.0, 150.0), "Inputs\n*u*");
-    let states = diagram.block(small(262.0, 40.0), "Initial states\n*x*(0)");
-    let parameters = diagram.block(small(398.0, 40.0), "Parameters\n*p*");
-    let outputs = diagram.block(small(560.0, 150.0), "Outputs\n*y*");
+    let mut diagram = Diagram::new(660.0, 212.0);
+    let model = Block {
+        centre: at(330.0, 150.0),
+        size: (276.0, 88.0),
+        fill: BLUE_TINT,
+    };
+    let model = diagram.block(
+        model,
+        "Model equations\n*ẋ* = *f*(*x*, *u*, *p*)\n*y* = *h*(*x*, *u*, *p*)",
+    );
+    let small = |x, y| Block {
+        centre: at(x, y),
+        size: (120.0, 46.0),
+        fill: QUIET,
+    };
+    let inputs = diagram.block(small(78.0, 150.0), "Inputs\n*u*");
+    let states = diagram.block(small(252.0, 40.0), "Initial states\n*x*(0)");
+    let parameters = diagram.block(small(408.0, 40.0), "Parameters\n*p*");
+    let outputs = diagram.block(small(582.0, 150.0), "Outputs\n*y*");
     diagram.arrow(&[inputs.right(), model.left()], ARROW);
     diagram.arrow(&[model.right(), outputs.left()], ARROW);
     for source in [states, parameters] {

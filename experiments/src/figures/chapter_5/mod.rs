@@ -3,6 +3,7 @@
 use crate::item::Item;
 
 mod figure_5_1;
+mod figure_5_2;
 
 /// The items of this chapter.
-pub(super) const ITEMS: &[Item] = &[figure_5_1::ITEM];
+pub(super) const ITEMS: &[Item] = &[figure_5_1::ITEM, figure_5_2::ITEM];

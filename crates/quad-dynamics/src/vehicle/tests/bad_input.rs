@@ -347,3 +347,22 @@ fn exact_too_weak_to_hover() {
     approx::assert_relative_eq!(maximum_thrust_n, 12.0, max_relative = 1e-12);
     approx::assert_relative_eq!(weight_n, 13.734, max_relative = 1e-12);
 }
+
+/// A vehicle changed by a program is checked as one from a file is.
+#[test]
+fn exact_changed_vehicle_is_checked_again() {
+    let mut vehicle = Vehicle::qball_x4();
+    vehicle.airframe.inertia[(1, 0)] = 0.001;
+    let error = vehicle.validate("study").expect_err("asymmetric");
+    assert_eq!(
+        error,
+        VehicleError::AsymmetricInertia {
+            origin: "study".to_owned(),
+            upper: 0.0,
+            lower: 0.001
+        }
+    );
+    let mut vehicle = Vehicle::qball_x4();
+    vehicle.airframe.inertia[(2, 1)] = f64::NAN;
+    assert!(vehicle.validate("study").is_err());
+}

@@ -1,0 +1,83 @@
+//! A controller chosen at run time, with its memory.
+
+use crate::controller::{Controller, ControllerError};
+use crate::pid::Pid;
+use crate::{C1, C2, C3, Reference};
+use quad_dynamics::{CommandLimits, Flight, Level};
+use quad_math::Real;
+
+/// A controller together with what it remembers.
+#[derive(Clone, Copy, Debug)]
+pub struct InCharge<R: Real, C: Controller<R>> {
+    /// The controller.
+    pub controller: C,
+    /// Its memory.
+    pub memory: C::Memory,
+}
+
+impl<R: Real, C: Controller<R>> From<C> for InCharge<R, C> {
+    fn from(controller: C) -> Self {
+        let memory = controller.initial_memory();
+        Self { controller, memory }
+    }
+}
+
+/// One of the controllers, by value: controller and memory in one, so that they can't be mismatched.
+#[derive(Clone, Debug)]
+pub enum AnyController<R: Real> {
+    /// The inversion of level 1.
+    C1(InCharge<R, C1<R>>),
+    /// The inversion of level 2.
+    C2(InCharge<R, C2<R>>),
+    /// The inversion of level 3.
+    C3(InCharge<R, C3<R>>),
+    /// Conventional cascaded PID.
+    Pid(InCharge<R, Pid<R>>),
+}
+
+/// The same expression for whichever controller is inside.
+macro_rules! each_controller {
+    ($any:expr, $inner:ident => $body:expr) => {
+        match $any {
+            AnyController::C1($inner) => $body,
+            AnyController::C2($inner) => $body,
+            AnyController::C3($inner) => $body,
+            AnyController::Pid($inner) => $body,
+        }
+    };
+}
+
+impl<R: Real> AnyController<R> {
+    /// Commands for the next `dt` seconds.
+    #[inline]
+    pub fn update(&mut self, flight: &Flight<R>, reference: &Reference<R>, dt: R) -> [R; 4] {
+        each_controller!(self, c => {
+            let answer = c.controller.control(&c.memory, flight, reference, dt);
+            c.memory = answer.memory;
+            answer.commands
+        })
+    }
+
+    /// The same controller with limits on its commands.
+    #[must_use]
+    pub fn with_limits(mut self, limits: Option<CommandLimits<R>>) -> Self {
+        each_controller!(&mut self, c => c.controller.limits = limits);
+        self
+    }
+
+    /// The lowest level of model that the controller makes sense on.
+    pub fn level(&self) -> Level {
+        fn level<R: Real, C: Controller<R>>(_: &InCharge<R, C>) -> Level {
+            C::LEVEL
+        }
+        each_controller!(self, c => level(c))
+    }
+
+    /// Checks that the controller may fly a model of the level.
+    ///
+    /// # Errors
+    /// [`ControllerError::ModelBelowController`].
+    pub fn check(&self, model: Level) -> Result<(), ControllerError> {
+        crate::controller::check_pairing(self.level(), model)
+    }
+}

@@ -1,0 +1,198 @@
+//! One flight of a tuning and its cost.
+
+use super::{LoopTarget, TunedLoop, TuningError, TuningOptions};
+use crate::Reference;
+use crate::controller::{Controller, Demand};
+use crate::pid::{Pid, PidMemory, PidSettings};
+use nalgebra::Vector3;
+use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, Input, Phenomenon, Vehicle};
+use quad_math::FixedStep;
+
+/// Length of a flight, in settling times; the load comes half-way.
+pub(super) const FLIGHT: f64 = 4.0;
+
+/// The load as a fraction of `ω² A`, against the step: what saturation left in the integrals after the step must
+/// not pass for an answer to the load.
+const LOAD: f64 = 0.1;
+
+/// Weight of the error under load against that of the step: it is the smaller by its nature.
+const LOAD_WEIGHT: f64 = 5.0;
+
+/// Weight of the total variation of the commands.
+const ACTIVITY_WEIGHT: f64 = 0.005;
+
+/// Overshoot that costs nothing, and the price of the rest.
+const FREE_OVERSHOOT: f64 = 0.05;
+const OVERSHOOT_WEIGHT: f64 = 10.0;
+
+/// Least cost of a flight that stops being finite.
+const PENALTY: f64 = 1e3;
+
+/// A vehicle in hover, a loop to excite, and what to judge it by.
+pub(super) struct Bench {
+    hovering: AnyQuadrotor<f64>,
+    hover_commands: [f64; 4],
+    tuned: TunedLoop,
+    target: LoopTarget,
+    omega: f64,
+    step_s: f64,
+    /// A controller of this vehicle; each flight has its own gains.
+    pid: Pid<f64>,
+    /// Commands that make the load.
+    load: [f64; 4],
+    /// Error of the measured pitch that makes the load, rad.
+    horizon: f64,
+}
+
+/// What a flight sums up.
+struct Account {
+    step_error: f64,
+    load_error: f64,
+    variation: f64,
+    overshoot: f64,
+}
+
+impl Bench {
+    pub(super) fn new(
+        vehicle: &Vehicle,
+        options: &TuningOptions,
+        tuned: TunedLoop,
+        settings: &PidSettings,
+    ) -> Result<Self, TuningError> {
+        let hovering =
+            AnyQuadrotor::hovering(options.level, vehicle, &options.phenomena, Vector3::zeros(), 0.0)?;
+        let mut pid = Pid::new(vehicle, settings)?;
+        let limits = options.phenomena.contains(Phenomenon::InputLimits);
+        pid.limits = limits.then(|| CommandLimits::of(vehicle));
+        let (target, omega) = (options.target(tuned), options.frequency(tuned)?);
+        let acceleration = -LOAD * omega * omega * target.step;
+        let about = |axis: Vector3<f64>| Demand {
+            thrust: 0.0,
+            moment: pid.body.inertia * axis * acceleration,
+        };
+        let none = about(Vector3::zeros());
+        let load = match tuned {
+            TunedLoop::Attitude => about(Vector3::x()),
+            TunedLoop::Yaw => about(Vector3::z()),
+            // Height and thrust both count upwards.
+            TunedLoop::Height => Demand { thrust: pid.body.mass * acceleration, ..none },
+            TunedLoop::Position => none,
+        };
+        let horizon = if tuned == TunedLoop::Position {
+            acceleration / pid.body.gravity
+        } else {
+            0.0
+        };
+        Ok(Self {
+            hover_commands: hovering.hover_input().commands,
+            hovering,
+            tuned,
+            target,
+            omega,
+            step_s: options.step_s,
+            load: pid.allocation.commands(&load),
+            pid,
+            horizon,
+        })
+    }
+
+    /// The cost J of one flight with these settings: finite for any gains.
+    pub(super) fn cost(&self, settings: &PidSettings) -> f64 {
+        let mut pid = self.pid;
+        pid.proportional = settings.per_loop(|g| g.proportional);
+        pid.integral = settings.per_loop(|g| g.integral);
+        pid.derivative = settings.per_loop(|g| g.derivative);
+        let steps = (FLIGHT * self.target.settling_time_s / self.step_s).round() as u32;
+        let mut quadrotor = self.hovering.clone();
+        let mut memory = pid.initial_memory();
+        let mut before = self.hover_commands;
+        let mut account = Account::new();
+        for k in 0..steps {
+            let loaded = k >= steps / 2;
+            let mut flight = quadrotor.flight();
+            let y = self.response(&flight);
+            if loaded {
+                flight.attitude.pitch += self.horizon;
+            }
+            let (mut commands, next) = self.control(&pid, &memory, &flight);
+            memory = next;
+            if !(y.is_finite() && commands.iter().all(|u| u.is_finite())) {
+                return PENALTY * (2.0 - f64::from(k) / f64::from(steps));
+            }
+            self.add(&mut account, f64::from(k), f64::from(steps / 2), y);
+            account.variation += commands.iter().zip(&before).map(|(u, v)| (u - v).abs()).sum::<f64>();
+            before = commands;
+            if loaded {
+                commands = std::array::from_fn(|i| commands[i] + self.load[i]);
+            }
+            quadrotor.step(FixedStep::Rk4, &Input::still_air(commands), self.step_s);
+        }
+        account.total(self.hover_commands.iter().sum())
+    }
+
+    /// Commands and memory for a step in the loop.
+    fn control(&self, pid: &Pid<f64>, memory: &PidMemory<f64>, flight: &Flight<f64>) -> ([f64; 4], PidMemory<f64>) {
+        let (step, o) = (self.target.step, Vector3::zeros());
+        let hold = Reference::hold(o, 0.0);
+        let answer = match self.tuned {
+            TunedLoop::Attitude => pid.hold_tilt(memory, flight, &hold, [step, 0.0], self.step_s),
+            TunedLoop::Yaw => pid.hold_tilt(memory, flight, &Reference::hold(o, step), [0.0; 2], self.step_s),
+            TunedLoop::Height => {
+                let reference = Reference::hold(Vector3::new(0.0, 0.0, -step), 0.0);
+                pid.hold_tilt(memory, flight, &reference, [0.0; 2], self.step_s)
+            }
+            TunedLoop::Position => {
+                let reference = Reference::hold(Vector3::new(step, 0.0, 0.0), 0.0);
+                pid.control(memory, flight, &reference, self.step_s)
+            }
+        };
+        (answer.commands, answer.memory)
+    }
+
+    /// The response as a fraction of the step.
+    fn response(&self, flight: &Flight<f64>) -> f64 {
+        let y = match self.tuned {
+            TunedLoop::Attitude => flight.attitude.roll,
+            TunedLoop::Yaw => flight.attitude.yaw,
+            TunedLoop::Height => -flight.position.z,
+            TunedLoop::Position => flight.position.x,
+        };
+        y / self.target.step
+    }
+
+    /// Adds sample `k` of the response, the load coming at sample `half`, by the rectangle rule.
+    fn add(&self, account: &mut Account, k: f64, half: f64, y: f64) {
+        let tau = self.target.settling_time_s;
+        let ds = self.step_s / tau;
+        if k < half {
+            // Critically damped second-order step response.
+            let x = self.omega * k * self.step_s;
+            let model = 1.0 - (1.0 + x) * (-x).exp();
+            account.step_error += k * ds * (model - y).abs() * ds;
+            account.overshoot = account.overshoot.max(y - 1.0);
+        } else {
+            account.load_error += (k - half) * ds * (1.0 - y).abs() * ds;
+        }
+    }
+}
+
+impl Account {
+    fn new() -> Self {
+        Self {
+            step_error: 0.0,
+            load_error: 0.0,
+            variation: 0.0,
+            overshoot: 0.0,
+        }
+    }
+
+    /// The cost, given the sum of the four hover commands.
+    fn total(&self, hover: f64) -> f64 {
+        let cost = self.step_error
+            + LOAD_WEIGHT * self.load_error
+            + ACTIVITY_WEIGHT * self.variation / hover
+            + OVERSHOOT_WEIGHT * (self.overshoot - FREE_OVERSHOOT).max(0.0);
+        // A flight to far away may be finite and still dearer than one that broke off.
+        cost.min(PENALTY)
+    }
+}

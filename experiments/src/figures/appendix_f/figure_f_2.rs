@@ -1,0 +1,29 @@
+//! Figure F.2: inputs of figure F.1.
+
+use super::sweep::{self, Varied};
+use crate::claim::Claim;
+use crate::drawing::Drawing;
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "F.2",
+    title: "Inputs of figure F.1",
+    description: "Pseudo-inputs of the flights of figure F.1: longitudinal above, collective below, which stays at hover because level 1 does not couple height and attitude.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[LARGER],
+    make: Make::Draw(draw),
+};
+
+const LARGER: Claim = Claim::holds("a larger ratio needs larger inputs");
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let varied = Varied::FrequencyRatio;
+    let runs = sweep::fly(context, varied)?;
+    let largest: Vec<f64> = runs.iter().map(sweep::Run::largest_input).collect();
+    let labels = ["Longitudinal *u*_{long}", "Collective *u*_{col}"];
+    let picture = sweep::picture(varied, &runs, labels, [|r| r.pseudo_inputs[2], |r| r.pseudo_inputs[0]], None);
+    Ok(Drawing::picture(picture).data(sweep::table(varied, &runs)).scenario(&sweep::scenario(varied, runs[0].value))?.check(LARGER, largest.is_sorted_by(|a, b| a < b), format!("largest |u_long| for ratios 3, 5, 10, 20: {largest:.3?}"))
+        .note("the scenario file has the first of the values; the others differ in this one setting"))
+}

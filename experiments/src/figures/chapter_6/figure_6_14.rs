@@ -1,0 +1,100 @@
+//! Figure 6.14: height during the horizontal step of figure 6.13.
+
+use super::settings;
+use super::steps::{self, Outcome, Quantity};
+use crate::claim::Claim;
+use crate::data::DataTable;
+use crate::drawing::Drawing;
+use crate::flight::{Law, Scenario};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::plot::{Figure, Panel, level_name, level_style};
+use quad_dynamics::Level;
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "6.14",
+    title: "Height during a step in horizontal position",
+    description: "The flights of figure 6.13, seen from the side: height under controller c1 while the vehicle \
+                  pitches to move one metre in *x*. Below, the first three seconds enlarged.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[LEVEL_1_KEEPS, OTHERS_LOSE, LEVEL_5_OFFSET],
+    make: Make::Draw(draw),
+};
+
+const LEVEL_1_KEEPS: Claim = Claim::holds("level 1 keeps its height");
+const OTHERS_LOSE: Claim = Claim::holds("levels 2 and up do not keep their height");
+const LEVEL_5_OFFSET: Claim = Claim::holds("level 5 has a steady-state error from the non-linear rotor");
+
+/// Rounding of some seconds of RK4 steps on numbers of order one, m.
+const KEPT: f64 = 1e-9;
+/// Loss of height that a picture of a metre can show, m.
+const LOST: f64 = 1e-3;
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let scenario = Scenario::position_step(Law::C1, settings::flight(), 12.0);
+    let outcomes = steps::fly(context, &scenario, Quantity::X, &Level::ALL)?;
+    let heights: Vec<Vec<(f64, f64)>> = outcomes.iter().map(|o| o.response(Quantity::Height)).collect();
+    let excursion = |i: usize| heights[i].iter().map(|(_, h)| h.abs()).fold(0.0, f64::max);
+    let others: Vec<f64> = (1..5).map(excursion).collect();
+    let last = |i: usize| heights[i].last().map_or(f64::NAN, |(_, h)| *h);
+    // The controller believes in a line through its zero-thrust command; the polynomial differs at hover.
+    let predicted = predicted_offset(context, &scenario)?;
+    Ok(Drawing::picture(picture(&outcomes, &heights))
+        .data(data(&outcomes, &heights))
+        .scenario(&scenario)?
+        .check(LEVEL_1_KEEPS, excursion(0) < KEPT, format!("largest excursion {:.1e} m", excursion(0)))
+        .check(OTHERS_LOSE, others.iter().all(|e| *e > LOST), format!("largest excursions of levels 2 to 5: {others:.4?} m"))
+        .check(
+            LEVEL_5_OFFSET,
+            last(4).abs() > LOST && last(3).abs() < LOST && (last(4) - predicted).abs() < 0.1 * predicted.abs(),
+            format!(
+                "{:.4} m at the end, {predicted:.4} m predicted from the rotor's error at hover over the loop's stiffness; \
+                 level 4: {:.1e} m",
+                last(4),
+                last(3)
+            ),
+        ))
+}
+
+/// Height offset at rest, m: acceleration missing in hover over ω_n², from the static rotor models alone.
+fn predicted_offset(context: &Context, scenario: &Scenario) -> Result<f64, ItemError> {
+    let vehicle = scenario.vehicle(context)?;
+    let polynomial = vehicle.require_polynomial_rotor("figure 6.14")?.thrust;
+    let voltage = vehicle.require_battery("figure 6.14")?.nominal_voltage;
+    let weight_share = vehicle.hover_thrust_per_rotor();
+    let omega = scenario.settings.gains::<f64>()?.height.natural_frequency;
+    // Which offset e makes the polynomial carry the weight? Demand per rotor is weight + m ω² e / 4.
+    let thrust = |demand: f64| {
+        let duty = demand / vehicle.linear_rotor.thrust_gain + vehicle.pwm.zero_thrust - vehicle.pwm.minimum;
+        let x = duty * voltage;
+        ((polynomial[2] * x + polynomial[1]) * x + polynomial[0]) * x
+    };
+    let (mut low, mut high) = (0.0, 2.0 * weight_share);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if thrust(middle) < weight_share { low = middle } else { high = middle }
+    }
+    // Demand above weight means that the vehicle hangs below its set point.
+    Ok(-4.0 * (low - weight_share) / (vehicle.airframe.mass * omega * omega))
+}
+
+fn picture(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> crate::plot::svg::Svg {
+    let panel = |until: f64| {
+        outcomes.iter().zip(heights).fold(Panel::new("Time *t*, s", Quantity::Height.label()), |panel, (o, h)| {
+            let number = o.level.number();
+            let shown = h.iter().copied().filter(move |(t, _)| *t <= until);
+            panel.line(level_name(number), level_style(number), shown)
+        })
+    };
+    Figure::columns(1).panel(panel(f64::INFINITY)).panel(panel(3.0)).panel_size(440.0, 180.0).draw()
+}
+
+fn data(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> DataTable {
+    let names: Vec<String> = outcomes.iter().map(|o| format!("height_m_level_{}", o.level.number())).collect();
+    let times: Vec<f64> = heights[0].iter().map(|(t, _)| *t).collect();
+    let columns: Vec<Vec<f64>> = heights.iter().map(|h| h.iter().map(|(_, y)| *y).collect()).collect();
+    let mut all: Vec<(&str, &[f64])> = vec![("t_s", &times)];
+    all.extend(names.iter().zip(&columns).map(|(n, c)| (n.as_str(), c.as_slice())));
+    DataTable::from_columns(&all)
+}

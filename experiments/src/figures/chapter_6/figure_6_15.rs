@@ -1,0 +1,26 @@
+//! Figure 6.15: unit step in horizontal position, controller c2 on levels 2 to 5.
+
+use super::settings;
+use super::steps::{self, Quantity};
+use crate::drawing::Drawing;
+use crate::flight::{Law, Scenario};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use quad_dynamics::Level;
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "6.15",
+    title: "Unit step in horizontal position: c2 on levels 2 to 5",
+    description: "A step of one metre in *x* under controller c2, input limits off. Settling time designed: 5 s, *ω*_{n,a} = 10 *ω*_{n,p} = 11.7 rad/s, which leaves a margin to the limits of the Routh array above level 3.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[],
+    make: Make::Draw(draw),
+};
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let scenario = Scenario::position_step(Law::C2, settings::flight(), 12.0);
+    let outcomes = steps::fly(context, &scenario, Quantity::X, &Level::ALL[1..])?;
+    let drawing = steps::drawing(&scenario, Quantity::X, &outcomes)?;
+    Ok(drawing)
+}

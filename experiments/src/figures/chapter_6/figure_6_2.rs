@@ -1,0 +1,66 @@
+//! Figure 6.2: closed-loop height on levels 1 to 3, each under its own controller.
+
+use super::settings;
+use super::steps::{self, Quantity};
+use crate::claim::Claim;
+use crate::data::DataTable;
+use crate::drawing::Drawing;
+use crate::flight::{Law, Scenario};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::plot::{Figure, Panel, level_name, level_style, reference_style};
+use quad_dynamics::Level;
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "6.2",
+    title: "Closed-loop height, levels 1 to 3, and the error of the extra pole",
+    description: "Unit step in height on each of levels 1 to 3 under the controller derived from it. Levels 1 and 2 \
+                  answer with two poles, level 3 with a third at *p*_{z} = 20 *ω*_{n,z}; the error \
+                  *e*_{z} = *z*_{1/2} − *z*_{3} is what that pole costs. Designed settling time 2 s.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[SMALL],
+    make: Make::Draw(draw),
+};
+
+const SMALL: Claim = Claim::holds("e_z = z_1/2 − z_3 is small: below 2 % of the step");
+
+/// By hand: the pole delays by 1/p_z = 1/(20 ω), the step rises at most at ω/e, so e_z ≤ 1/(20 e) = 1.8 %.
+const LARGEST_ERROR: f64 = 0.02 * steps::STEP;
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let on = |law| Scenario::height_step(law, settings::height(2.0), 5.0);
+    let pairs = [(Law::C1, Level::One), (Law::C2, Level::Two), (Law::C3, Level::Three)];
+    let mut heights = Vec::new();
+    for (law, level) in pairs {
+        let outcomes = steps::fly(context, &on(law), Quantity::Height, &[level])?;
+        heights.push(outcomes[0].response(Quantity::Height));
+    }
+    let times: Vec<f64> = heights[0].iter().map(|(t, _)| *t).collect();
+    let columns: Vec<Vec<f64>> = heights.iter().map(|h| h.iter().map(|(_, y)| *y).collect()).collect();
+    // Heights are −z, so e_z = z_1 − z_3 = h_3 − h_1.
+    let error: Vec<f64> = columns[2].iter().zip(&columns[0]).map(|(h3, h1)| h3 - h1).collect();
+    let mut above = Panel::new("Time *t*, s", Quantity::Height.label()).horizontal(steps::STEP, "");
+    for (i, (_, level)) in pairs.iter().enumerate() {
+        let number = level.number();
+        above = above.line(level_name(number), level_style(number), heights[i].iter().copied());
+    }
+    let below = Panel::new("Time *t*, s", "Error *e*_{z}, m").line(
+        "",
+        reference_style().dashed(""),
+        times.iter().copied().zip(error.iter().copied()),
+    );
+    let largest = error.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
+    let figure = Figure::columns(1).panel(above).panel(below).share_x().panel_size(440.0, 180.0);
+    Ok(Drawing::picture(figure.draw())
+        .data(DataTable::from_columns(&[
+            ("t_s", &times),
+            ("height_m_level_1", &columns[0]),
+            ("height_m_level_2", &columns[1]),
+            ("height_m_level_3", &columns[2]),
+            ("error_m", &error),
+        ]))
+        .scenario(&on(Law::C3))?
+        .check(SMALL, largest < LARGEST_ERROR, format!("largest |e_z| = {largest:.4} m"))
+        .note("the scenario file names controller c3; levels 1 and 2 are flown with c1 and c2, all else alike"))
+}

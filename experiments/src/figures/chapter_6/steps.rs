@@ -1,0 +1,228 @@
+//! What the step responses of the chapter share: flights on several levels, their picture, data and metrics.
+
+use crate::data::DataTable;
+use crate::drawing::Drawing;
+use crate::flight::{Scenario, completed, series};
+use crate::item::{Context, ItemError};
+use crate::plot::svg::Svg;
+use crate::plot::{Figure, Panel, level_name, level_style};
+use quad_dynamics::{AnyQuadrotor, Level};
+use quad_ndi::metrics::{Effort, StepMetrics};
+use quad_ndi::{FlightLog, FlightStatus, Record};
+
+/// The quantity that steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// Height `−z`, m.
+    Height,
+    /// Heading ψ, rad.
+    Yaw,
+    /// Horizontal position x, m.
+    X,
+}
+
+impl Quantity {
+    /// Axis label of the quantity.
+    pub(super) const fn label(self) -> &'static str {
+        match self {
+            Self::Height => "Height *h* = −*z*, m",
+            Self::Yaw => "Yaw *ψ*, rad",
+            Self::X => "Position *x*, m",
+        }
+    }
+
+    const fn column(self) -> &'static str {
+        match self {
+            Self::Height => "height_m",
+            Self::Yaw => "yaw_rad",
+            Self::X => "x_m",
+        }
+    }
+
+    const fn unit(self) -> &'static str {
+        match self {
+            Self::Height | Self::X => "m",
+            Self::Yaw => "rad",
+        }
+    }
+
+    /// The quantity in a record.
+    pub(super) fn of(self, record: &Record) -> f64 {
+        match self {
+            Self::Height => -record.flight.position.z,
+            Self::Yaw => record.flight.attitude.yaw,
+            Self::X => record.flight.position.x,
+        }
+    }
+
+    /// Label, column and index of the pseudo-input that drives it.
+    const fn pseudo_input(self) -> (&'static str, &'static str, usize) {
+        match self {
+            Self::Height => ("Collective *u*_{col}", "u_col", 0),
+            Self::Yaw => ("Yaw input *u*_{yaw}", "u_yaw", 3),
+            Self::X => ("Longitudinal *u*_{long}", "u_long", 2),
+        }
+    }
+}
+
+/// The step commanded in every one of these figures: one metre, one radian.
+pub(super) const STEP: f64 = 1.0;
+
+/// One level's flight.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    /// The level.
+    pub(super) level: Level,
+    /// What was recorded.
+    pub(super) log: FlightLog,
+    /// How the quantity responded.
+    pub(super) metrics: Option<StepMetrics>,
+    /// What it cost.
+    pub(super) effort: Effort,
+}
+
+impl Outcome {
+    /// The quantity over time.
+    pub(super) fn response(&self, quantity: Quantity) -> Vec<(f64, f64)> {
+        series(&self.log, |r| quantity.of(r))
+    }
+}
+
+/// Flies a scenario on each of the levels.
+pub(super) fn fly(
+    context: &Context,
+    scenario: &Scenario,
+    quantity: Quantity,
+    levels: &[Level],
+) -> Result<Vec<Outcome>, ItemError> {
+    let vehicle = scenario.vehicle(context)?;
+    let limits = scenario.limits(&vehicle);
+    let outcome = |&level: &Level| {
+        let log = scenario.fly_vehicle(&vehicle, level)?;
+        let at_rest = AnyQuadrotor::<f64>::hovering(
+            level,
+            &vehicle,
+            &scenario.phenomena(level),
+            nalgebra::Vector3::zeros(),
+            0.0,
+        )?;
+        let response = series(&log, |r| quantity.of(r));
+        let metrics = completed(&log).then(|| StepMetrics::of(&response, STEP)).flatten();
+        let effort = Effort::of(&log.records, &at_rest.hover_input().commands, limits.as_ref());
+        Ok(Outcome { level, metrics, effort, log })
+    };
+    levels.iter().map(outcome).collect()
+}
+
+/// The drawing of a step on several levels: response above, pseudo-input below, data, scenario, metrics.
+pub(super) fn drawing(
+    scenario: &Scenario,
+    quantity: Quantity,
+    outcomes: &[Outcome],
+) -> Result<Drawing, ItemError> {
+    let drawing =
+        Drawing::picture(picture(quantity, outcomes)).data(table(quantity, outcomes)).scenario(scenario)?;
+    Ok(outcomes.iter().fold(drawing, |d, o| d.note(remark(quantity, o))))
+}
+
+/// Largest excursion that is still drawn, in steps; a diverging flight leaves the picture there.
+const CLIP: (f64, f64) = (-0.6, 2.0);
+
+fn picture(quantity: Quantity, outcomes: &[Outcome]) -> Svg {
+    let (input_label, _, input) = quantity.pseudo_input();
+    let mut above = Panel::new("Time *t*, s", quantity.label()).horizontal(STEP, "");
+    let mut below = Panel::new("Time *t*, s", input_label);
+    let mut extreme = (0.0_f64, 0.0_f64);
+    for o in outcomes {
+        let (name, look) = (level_name(o.level.number()), level_style(o.level.number()));
+        let response = o.response(quantity);
+        for &(_, y) in &response {
+            extreme = (extreme.0.min(y), extreme.1.max(y));
+        }
+        above = above.line(name.clone(), look, response);
+        below = below.line(name, look, series(&o.log, |r| r.pseudo_inputs[input]));
+    }
+    if extreme.0 < CLIP.0 || extreme.1 > CLIP.1 {
+        above = above.y_range(extreme.0.max(CLIP.0), extreme.1.min(CLIP.1));
+    }
+    Figure::columns(1).panel(above).panel(below).share_x().panel_size(440.0, 190.0).draw()
+}
+
+/// Columns: time, then quantity and pseudo-input of each level.
+fn table(quantity: Quantity, outcomes: &[Outcome]) -> DataTable {
+    let (_, input_column, input) = quantity.pseudo_input();
+    let longest = outcomes.iter().max_by_key(|o| o.log.records.len());
+    let mut names = vec!["t_s".to_owned()];
+    let mut columns: Vec<Vec<f64>> =
+        vec![longest.map(|o| o.log.records.iter().map(|r| r.time_s).collect()).unwrap_or_default()];
+    for o in outcomes {
+        let level = o.level.number();
+        names.push(format!("{}_level_{level}", quantity.column()));
+        columns.push(o.log.records.iter().map(|r| quantity.of(r)).collect());
+        names.push(format!("{input_column}_level_{level}"));
+        columns.push(o.log.records.iter().map(|r| r.pseudo_inputs[input]).collect());
+    }
+    // A flight that diverged has no values after that: NaN leaves the cell without a number.
+    let rows = columns[0].len();
+    for column in &mut columns {
+        column.resize(rows, f64::NAN);
+    }
+    let borrowed: Vec<(&str, &[f64])> =
+        names.iter().zip(&columns).map(|(name, column)| (name.as_str(), column.as_slice())).collect();
+    DataTable::from_columns(&borrowed)
+}
+
+/// One sentence of numbers on a flight.
+fn remark(quantity: Quantity, outcome: &Outcome) -> String {
+    let name = level_name(outcome.level.number());
+    if let FlightStatus::Diverged { time_s, .. } = outcome.log.status {
+        return format!("{name}: diverged, no finite state from {time_s:.3} s on");
+    }
+    let Some(m) = outcome.metrics else { return format!("{name}: no step") };
+    let settled =
+        m.settling_time_s.map_or("does not settle to 2 %".to_owned(), |t| format!("settles in {t:.2} s"));
+    format!(
+        "{name}: {settled}, overshoot {:.1} %, steady-state error {:.4} {unit}, RMS error {:.3} {unit}, RMS command {:.4}, \
+         saturated {:.2} s",
+        100.0 * m.overshoot,
+        m.steady_state_error,
+        m.rms_error,
+        outcome.effort.rms_command,
+        outcome.effort.saturation_time_s,
+        unit = quantity.unit(),
+    )
+}
+
+/// Largest distance between two responses at the same instants; infinite if one is shorter.
+pub(super) fn distance(a: &[(f64, f64)], b: &[(f64, f64)]) -> f64 {
+    if a.len() != b.len() {
+        return f64::INFINITY;
+    }
+    a.iter().zip(b).map(|(p, q)| (p.1 - q.1).abs()).fold(0.0, f64::max)
+}
+
+/// The critically damped second-order step, `1 − (1 + ω t) e^(−ω t)`.
+pub(super) fn design(natural_frequency: f64, t: f64) -> f64 {
+    STEP * (1.0 - (1.0 + natural_frequency * t) * (-natural_frequency * t).exp())
+}
+
+/// Largest distance of a response from its design.
+pub(super) fn distance_from_design(response: &[(f64, f64)], natural_frequency: f64) -> f64 {
+    response.iter().map(|&(t, y)| (y - design(natural_frequency, t)).abs()).fold(0.0, f64::max)
+}
+
+/// Time at which a response first reaches 90 % of the step, s; infinite if it never does.
+pub(super) fn rise_time_s(response: &[(f64, f64)]) -> f64 {
+    response.iter().find(|(_, y)| *y >= 0.9 * STEP).map_or(f64::INFINITY, |(t, _)| *t)
+}
+
+/// By how much the commands of all flights exceed a range at most; negative inside it.
+pub(super) fn largest_excess(outcomes: &[Outcome], range: &std::ops::RangeInclusive<f64>) -> f64 {
+    let excess = |u: f64| (range.start() - u).max(u - range.end());
+    outcomes
+        .iter()
+        .flat_map(|o| &o.log.records)
+        .flat_map(|r| r.commands)
+        .map(excess)
+        .fold(f64::NEG_INFINITY, f64::max)
+}
