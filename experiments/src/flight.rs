@@ -91,24 +91,56 @@ impl Scenario {
 
     /// A unit step in height.
     pub fn height_step(controller: Law, settings: Settings, duration_s: f64) -> Self {
-        Self::new(controller, settings, Task::Step { position_m: [0.0, 0.0, -1.0], yaw_rad: 0.0 }, duration_s)
+        Self::new(
+            controller,
+            settings,
+            Task::Step {
+                position_m: [0.0, 0.0, -1.0],
+                yaw_rad: 0.0,
+            },
+            duration_s,
+        )
     }
 
     /// A unit step in yaw.
     pub fn yaw_step(controller: Law, settings: Settings, duration_s: f64) -> Self {
-        Self::new(controller, settings, Task::Step { position_m: [0.0; 3], yaw_rad: 1.0 }, duration_s)
+        Self::new(
+            controller,
+            settings,
+            Task::Step {
+                position_m: [0.0; 3],
+                yaw_rad: 1.0,
+            },
+            duration_s,
+        )
     }
 
     /// A unit step in x.
     pub fn position_step(controller: Law, settings: Settings, duration_s: f64) -> Self {
-        Self::new(controller, settings, Task::Step { position_m: [1.0, 0.0, 0.0], yaw_rad: 0.0 }, duration_s)
+        Self::new(
+            controller,
+            settings,
+            Task::Step {
+                position_m: [1.0, 0.0, 0.0],
+                yaw_rad: 0.0,
+            },
+            duration_s,
+        )
     }
 
     /// The phenomena of a level in this scenario.
     pub fn phenomena(&self, level: Level) -> PhenomenonSet {
         let own = level.phenomena();
-        let own = if self.voltage_sag { own } else { own.without(Phenomenon::VoltageSag) };
-        if self.input_limits { own.with(Phenomenon::InputLimits) } else { own.without(Phenomenon::InputLimits) }
+        let own = if self.voltage_sag {
+            own
+        } else {
+            own.without(Phenomenon::VoltageSag)
+        };
+        if self.input_limits {
+            own.with(Phenomenon::InputLimits)
+        } else {
+            own.without(Phenomenon::InputLimits)
+        }
     }
 
     /// The vehicle, read from its file.
@@ -142,7 +174,10 @@ impl Scenario {
             Law::C2 => AnyController::C2(C2::new(vehicle, &self.settings)?.into()),
             Law::C3 => AnyController::C3(C3::new(vehicle, &self.settings)?.into()),
             Law::Pid => {
-                let settings = self.pid.as_ref().ok_or_else(|| ItemError::new("PID without gains"))?;
+                let settings = self
+                    .pid
+                    .as_ref()
+                    .ok_or_else(|| ItemError::new("PID without gains"))?;
                 AnyController::Pid(Pid::new(vehicle, settings)?.into())
             }
         };
@@ -161,7 +196,11 @@ impl Scenario {
             record_every: NonZeroU64::new(self.record_every).unwrap_or(NonZeroU64::MIN),
         };
         let gravity = vehicle.environment.gravity;
-        let tilt = if self.controller == Law::C1 { TiltLaw::SmallAngle } else { TiltLaw::Exact };
+        let tilt = if self.controller == Law::C1 {
+            TiltLaw::SmallAngle
+        } else {
+            TiltLaw::Exact
+        };
         Ok(flyer.fly(&plan, |t| match (&self.task, &trajectory) {
             (Task::Step { position_m, yaw_rad }, _) => Reference::hold(Vector3::from(*position_m), *yaw_rad),
             (Task::Follow { .. }, Some(path)) => Reference::following(path.flat_output(t), gravity, tilt),

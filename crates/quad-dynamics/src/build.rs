@@ -1,17 +1,17 @@
 //! From a vehicle's parameters to the models of levels 2 to 5 and the mechanistic vehicle.
 
-use crate::quadrotor::{CommandLimits, CurrentDraw, Quadrotor, QuadrotorState, RotorSet, SpinningRotors};
+mod rotors;
+
+use crate::quadrotor::{CommandLimits, CurrentDraw, Quadrotor, RotorSet, SpinningRotors};
 use crate::vehicle::Vehicle;
 use crate::{
-    BuildError, Drag, Input, Level, ModelName, Phenomenon, PhenomenonSet, RigidBody, RigidBodyState,
-    RotorGeometry,
+    BuildError, Drag, Input, Level, ModelName, Phenomenon, PhenomenonSet, QuadrotorState, RigidBody,
+    RigidBodyState, RotorGeometry,
 };
 use nalgebra::{Matrix4, Vector3, Vector4};
 use quad_math::{Real, constant};
-use quad_rotor::{
-    Battery, ConstantVoltage, Cubic, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor, Motor,
-    NonLinearRotor, Propeller, RotorDynamics, RotorInput, RotorModel, Sag, SpinUp, Supply, ThrustState,
-};
+use quad_rotor::{ConstantVoltage, IdealRotor, RotorInput, RotorModel, SpinUp, Supply};
+use rotors::{ideal, propeller, stiff, zero_thrust_offset};
 
 /// Rounds of `voltage → torque → current → voltage`. Internal resistance times the slope of the current
 /// contracts the error at least fivefold a round, so thirty leave rounding only.
@@ -335,180 +335,4 @@ fn current_draw<R: Real>(vehicle: &Vehicle) -> Result<CurrentDraw<R>, BuildError
         full_voltage_duty: constant(motor.full_voltage_duty),
         zero_thrust_offset: zero_thrust_offset(vehicle),
     })
-}
-
-fn zero_thrust_offset<R: Real>(vehicle: &Vehicle) -> R {
-    constant(vehicle.pwm.zero_thrust - vehicle.pwm.minimum)
-}
-
-fn propeller<R: Real>(vehicle: &Vehicle, needed_by: &'static str) -> Result<Propeller<R>, BuildError> {
-    let p = vehicle.require_propeller(needed_by)?;
-    Ok(Propeller::from_coefficients(
-        constant(p.thrust_coefficient),
-        constant(p.torque_coefficient),
-        constant(p.diameter),
-        constant(vehicle.environment.air_density),
-    ))
-}
-
-fn ideal<R: Real>(vehicle: &Vehicle) -> IdealRotor<R> {
-    let gains = &vehicle.linear_rotor;
-    IdealRotor {
-        thrust_gain: constant(gains.thrust_gain),
-        torque_gain: constant(gains.torque_gain),
-    }
-}
-
-/// The constant supply of levels 1 to 4, whose rotors don't look at the voltage: nominal, or 1 V where
-/// the vehicle names no battery.
-fn stiff<R: Real>(vehicle: &Vehicle) -> ConstantVoltage<R> {
-    ConstantVoltage {
-        voltage: constant(vehicle.battery.as_ref().map_or(1.0, |b| b.nominal_voltage)),
-    }
-}
-
-fn battery<R: Real>(vehicle: &Vehicle, sag: bool, needed_by: &'static str) -> Result<Battery<R>, BuildError> {
-    let b = vehicle.require_battery(needed_by)?;
-    let sag = sag.then(|| Sag {
-        full_voltage: constant(b.full_voltage),
-        internal_resistance: constant(b.internal_resistance),
-        exponential_amplitude: constant(b.exponential_amplitude),
-        exponential_rate: constant(b.exponential_rate),
-    });
-    Ok(Battery {
-        nominal_voltage: constant(b.nominal_voltage),
-        sag,
-    })
-}
-
-fn dynamics<R: Real>(vehicle: &Vehicle, needed_by: &'static str) -> Result<RotorDynamics<R>, BuildError> {
-    let d = vehicle.require_rotor_dynamics(needed_by)?;
-    Ok(RotorDynamics {
-        thrust_c1: constant(d.thrust_c1),
-        thrust_c2: constant(d.thrust_c2),
-        torque_c1: constant(d.torque_c1),
-        torque_c2: constant(d.torque_c2),
-        torque_c3: constant(d.torque_c3),
-        torque_c4: constant(d.torque_c4),
-    })
-}
-
-fn cubic<R: Real>([k1, k2, k3]: [f64; 3]) -> Cubic<R> {
-    Cubic {
-        k1: constant(k1),
-        k2: constant(k2),
-        k3: constant(k3),
-    }
-}
-
-impl<R: Real> FamilyRotor<R> for IdealRotor<R> {
-    type Supply = ConstantVoltage<R>;
-    type OverF64 = IdealRotor<f64>;
-    const LEVEL: Option<Level> = Some(Level::Two);
-    const FEELS_VOLTAGE: bool = false;
-
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
-        Ok(ideal(vehicle))
-    }
-
-    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
-        Ok(stiff(vehicle))
-    }
-}
-
-impl<R: Real> FamilyRotor<R> for FirstOrderRotor<R> {
-    type Supply = ConstantVoltage<R>;
-    type OverF64 = FirstOrderRotor<f64>;
-    const LEVEL: Option<Level> = Some(Level::Three);
-    const FEELS_VOLTAGE: bool = false;
-
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
-        let gains = &vehicle.linear_rotor;
-        Ok(Self {
-            thrust_gain: constant(gains.thrust_gain),
-            torque_per_thrust: constant(gains.torque_gain / gains.thrust_gain),
-            bandwidth: constant(gains.bandwidth),
-        })
-    }
-
-    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
-        Ok(stiff(vehicle))
-    }
-
-    #[inline(always)]
-    fn measured_thrusts(rotors: &[ThrustState<R>; 4]) -> Option<[R; 4]> {
-        Some(rotors.map(|r| r.thrust))
-    }
-}
-
-impl<R: Real> FamilyRotor<R> for LinearRotor<R> {
-    type Supply = ConstantVoltage<R>;
-    type OverF64 = LinearRotor<f64>;
-    const LEVEL: Option<Level> = Some(Level::Four);
-    const FEELS_VOLTAGE: bool = false;
-
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
-        let IdealRotor {
-            thrust_gain,
-            torque_gain,
-        } = ideal(vehicle);
-        Ok(Self {
-            thrust_gain,
-            torque_gain,
-            dynamics: dynamics(vehicle, "level 4")?,
-        })
-    }
-
-    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
-        Ok(stiff(vehicle))
-    }
-}
-
-impl<R: Real> FamilyRotor<R> for NonLinearRotor<R> {
-    type Supply = Battery<R>;
-    type OverF64 = NonLinearRotor<f64>;
-    const LEVEL: Option<Level> = Some(Level::Five);
-    const FEELS_VOLTAGE: bool = true;
-
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
-        let polynomial = vehicle.require_polynomial_rotor("level 5")?;
-        Ok(Self {
-            thrust: cubic(polynomial.thrust),
-            torque: cubic(polynomial.torque),
-            zero_thrust_offset: zero_thrust_offset(vehicle),
-            dynamics: dynamics(vehicle, "level 5")?,
-        })
-    }
-
-    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Battery<R>, BuildError> {
-        battery(vehicle, sag, "level 5")
-    }
-}
-
-impl<R: Real> FamilyRotor<R> for MechanisticRotor<R> {
-    type Supply = Battery<R>;
-    type OverF64 = MechanisticRotor<f64>;
-    const LEVEL: Option<Level> = None;
-    const FEELS_VOLTAGE: bool = true;
-
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
-        let needed_by = "the mechanistic vehicle";
-        let m = vehicle.require_motor(needed_by)?;
-        Ok(Self {
-            propeller: propeller(vehicle, needed_by)?,
-            motor: Motor {
-                velocity_constant: constant(m.velocity_constant),
-                resistance: constant(m.resistance),
-                no_load_current: constant(m.no_load_current),
-                controller_lag: constant(m.controller_lag),
-                full_voltage_duty: constant(m.full_voltage_duty),
-            },
-            inertia: constant(m.rotor_inertia),
-            zero_thrust_offset: zero_thrust_offset(vehicle),
-        })
-    }
-
-    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Battery<R>, BuildError> {
-        battery(vehicle, sag, "the mechanistic vehicle")
-    }
 }

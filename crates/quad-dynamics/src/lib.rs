@@ -77,8 +77,11 @@ mod level1;
 mod model;
 mod phenomenon;
 mod quadrotor;
+mod quadrotor_state;
 mod resolution;
 mod rigid_body;
+#[cfg(test)]
+mod tests;
 pub mod vehicle;
 
 pub use any::{AnyQuadrotor, InFlight};
@@ -88,9 +91,15 @@ pub use level1::{Level1, LinearRate, LinearState};
 pub use model::{Flight, Hover, Input, Level, NoSuchLevel, QuadrotorModel, RotorSnapshot, Snapshot, StateOf};
 pub use phenomenon::{Phenomenon, PhenomenonSet, Prerequisite};
 pub use quadrotor::{
-    CommandLimits, CurrentDraw, Level2, Level3, Level4, Level5, MechanisticQuadrotor, Quadrotor,
-    QuadrotorRate, QuadrotorState, RotorSet, SpinningRotors,
+    Bare, CommandLimits, CurrentDraw, Level2, Level3, Level4, Level5, MechanisticQuadrotor, Quadrotor,
+    RotorSet, SpinningRotors,
 };
+pub use quadrotor_state::{QuadrotorRate, QuadrotorState};
 pub use resolution::{Feature, Resolution};
 pub use rigid_body::{RigidBody, RigidBodyRate, RigidBodyState, Wrench};
 pub use vehicle::{Vehicle, VehicleError};
+
+/// The README's example is tested with the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -14,11 +14,11 @@
 use crate::forces::sum_of_four;
 use crate::model::RotorSnapshot;
 use crate::{
-    BuildError, Drag, Flight, Hover, Input, Level, PhenomenonSet, QuadrotorModel,
-    RigidBody, RigidBodyRate, RigidBodyState, RotorGeometry, Snapshot, Vehicle, gyroscopic_torque,
+    BuildError, Drag, Flight, Hover, Input, Level, PhenomenonSet, QuadrotorModel, QuadrotorRate,
+    QuadrotorState, RigidBody, RigidBodyState, RotorGeometry, Snapshot, Vehicle, gyroscopic_torque,
 };
 use nalgebra::Vector3;
-use quad_math::{Flat, Rate, RateOf, Real, State, System};
+use quad_math::{RateOf, Real, System};
 use quad_rotor::{
     Battery, BatteryState, ConstantVoltage, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor,
     NonLinearRotor, Propeller, RotorInput, RotorModel, RotorOutput, Supply,
@@ -98,28 +98,6 @@ pub struct Quadrotor<R: Real, M, S> {
     pub spinning: Option<SpinningRotors<R>>,
     pub(crate) phenomena: PhenomenonSet,
     pub(crate) hover_commands: [R; 4],
-}
-
-/// State of a quadrotor: body, four rotors, supply.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct QuadrotorState<R: Real, X, Y> {
-    /// The rigid body.
-    pub body: RigidBodyState<R>,
-    /// The rotors.
-    pub rotors: [X; 4],
-    /// The supply.
-    pub supply: Y,
-}
-
-/// Rate of [`QuadrotorState`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct QuadrotorRate<R: Real, X, Y> {
-    /// The rigid body's.
-    pub body: RigidBodyRate<R>,
-    /// The rotors'.
-    pub rotors: [X; 4],
-    /// The supply's.
-    pub supply: Y,
 }
 
 impl<R: Real, M: RotorModel<R>, S: Supply<R>> RotorSet<R, M, S> {
@@ -240,6 +218,55 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> System<R> for Quadrotor<R, M, S> {
     }
 }
 
+/// A quadrotor whose switchable parts are all off, resolved before the loop rather than in it.
+///
+/// The same text without the questions; [`quad_math::Batch`] needs it, since a switch inside a loop over
+/// vehicles keeps the loop scalar. Made by [`Quadrotor::bare`].
+#[derive(Debug)]
+pub struct Bare<'a, R: Real, M, S>(&'a Quadrotor<R, M, S>);
+
+impl<R: Real, M, S> Quadrotor<R, M, S> {
+    /// The model without its switches, if they are all off.
+    pub fn bare(&self) -> Option<Bare<'_, R, M, S>> {
+        let set = &self.rotor_set;
+        let parts = self.drag.is_some()
+            || self.spinning.is_some()
+            || set.limits.is_some()
+            || set.current_draw.is_some();
+        (!parts).then_some(Bare(self))
+    }
+}
+
+impl<R: Real, M: RotorModel<R>, S: Supply<R>> System<R> for Bare<'_, R, M, S> {
+    type State = QuadrotorState<R, M::State, S::State>;
+    type Input = Input<R>;
+
+    #[inline(always)]
+    fn derivative(&self, state: &Self::State, input: &Input<R>) -> RateOf<R, Self> {
+        let set = &self.0.rotor_set;
+        let voltage = set.supply.voltage(&state.supply, R::zero());
+        let input = |i: usize| RotorInput {
+            command: input.commands[i],
+            voltage,
+        };
+        let outputs = std::array::from_fn(
+            #[inline(always)]
+            |i| set.rotors[i].output(&state.rotors[i], &input(i)),
+        );
+        QuadrotorRate {
+            body: self
+                .0
+                .body
+                .derivative(&state.body, &set.geometry.wrench(&outputs)),
+            rotors: std::array::from_fn(
+                #[inline(always)]
+                |i| set.rotors[i].derivative(&state.rotors[i], &input(i)),
+            ),
+            supply: set.supply.derivative(&state.supply, R::zero()),
+        }
+    }
+}
+
 impl<R, M, S> QuadrotorModel<R> for Quadrotor<R, M, S>
 where
     R: Real,
@@ -316,90 +343,6 @@ where
 
     fn phenomena(&self) -> &PhenomenonSet {
         &self.phenomena
-    }
-}
-
-impl<R: Real, X: State<R>, Y: State<R>> State<R> for QuadrotorState<R, X, Y> {
-    type Rate = QuadrotorRate<R, X::Rate, Y::Rate>;
-
-    #[inline(always)]
-    fn advanced(&self, h: R, rate: &Self::Rate) -> Self {
-        Self {
-            body: self.body.advanced(h, &rate.body),
-            rotors: self.rotors.advanced(h, &rate.rotors),
-            supply: self.supply.advanced(h, &rate.supply),
-        }
-    }
-
-    #[inline(always)]
-    fn normalised(self) -> Self {
-        Self {
-            body: self.body.normalised(),
-            rotors: self.rotors.normalised(),
-            supply: self.supply.normalised(),
-        }
-    }
-}
-
-impl<R: Real, X: Rate<R>, Y: Rate<R>> Rate<R> for QuadrotorRate<R, X, Y> {
-    #[inline(always)]
-    fn zero() -> Self {
-        Self {
-            body: RigidBodyRate::zero(),
-            rotors: [X::zero(); 4],
-            supply: Y::zero(),
-        }
-    }
-
-    #[inline(always)]
-    fn add_scaled(&self, h: R, other: &Self) -> Self {
-        Self {
-            body: self.body.add_scaled(h, &other.body),
-            rotors: self.rotors.add_scaled(h, &other.rotors),
-            supply: self.supply.add_scaled(h, &other.supply),
-        }
-    }
-}
-
-impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorState<R, X, Y> {
-    const LEN: usize = RigidBodyState::<R>::LEN + 4 * X::LEN + Y::LEN;
-
-    #[inline(always)]
-    fn write(&self, out: &mut [R]) {
-        self.body.write(out);
-        self.rotors.write(&mut out[RigidBodyState::<R>::LEN..]);
-        self.supply
-            .write(&mut out[RigidBodyState::<R>::LEN + 4 * X::LEN..]);
-    }
-
-    #[inline(always)]
-    fn read(values: &[R]) -> Self {
-        Self {
-            body: RigidBodyState::read(values),
-            rotors: Flat::read(&values[RigidBodyState::<R>::LEN..]),
-            supply: Y::read(&values[RigidBodyState::<R>::LEN + 4 * X::LEN..]),
-        }
-    }
-}
-
-impl<R: Real, X: Flat<R>, Y: Flat<R>> Flat<R> for QuadrotorRate<R, X, Y> {
-    const LEN: usize = RigidBodyRate::<R>::LEN + 4 * X::LEN + Y::LEN;
-
-    #[inline(always)]
-    fn write(&self, out: &mut [R]) {
-        self.body.write(out);
-        self.rotors.write(&mut out[RigidBodyRate::<R>::LEN..]);
-        self.supply
-            .write(&mut out[RigidBodyRate::<R>::LEN + 4 * X::LEN..]);
-    }
-
-    #[inline(always)]
-    fn read(values: &[R]) -> Self {
-        Self {
-            body: RigidBodyRate::read(values),
-            rotors: Flat::read(&values[RigidBodyRate::<R>::LEN..]),
-            supply: Y::read(&values[RigidBodyRate::<R>::LEN + 4 * X::LEN..]),
-        }
     }
 }
 

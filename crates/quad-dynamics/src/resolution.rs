@@ -56,7 +56,10 @@ pub struct Resolution {
 impl Resolution {
     /// The resolution of a level with these phenomena switched on.
     pub fn of(level: Level, phenomena: &PhenomenonSet) -> Self {
-        let structure = STRUCTURE.iter().filter(|(from, _)| level >= *from).map(|(_, feature)| *feature);
+        let structure = STRUCTURE
+            .iter()
+            .filter(|(from, _)| level >= *from)
+            .map(|(_, feature)| *feature);
         let parts = phenomena.0.iter().map(|p| Feature::Phenomenon(*p));
         let states = match level {
             Level::One => StateOf::<f64, Level1<f64>>::LEN,
@@ -65,7 +68,12 @@ impl Resolution {
             Level::Four => StateOf::<f64, Level4<f64>>::LEN,
             Level::Five => StateOf::<f64, Level5<f64>>::LEN,
         };
-        Self { level, states, inputs: 4, features: structure.chain(parts).collect() }
+        Self {
+            level,
+            states,
+            inputs: 4,
+            features: structure.chain(parts).collect(),
+        }
     }
 
     /// Whether the model is linear (at a fixed heading).
@@ -96,7 +104,10 @@ const STRUCTURE: [(Level, Feature); 5] = [
 /// By inclusion of features: `None` where each has something that the other lacks.
 impl PartialOrd for Resolution {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        match (self.features.is_subset(&other.features), other.features.is_subset(&self.features)) {
+        match (
+            self.features.is_subset(&other.features),
+            other.features.is_subset(&self.features),
+        ) {
             (true, true) if self == other => Some(Ordering::Equal),
             (true, false) => Some(Ordering::Less),
             (false, true) => Some(Ordering::Greater),
@@ -124,6 +135,9 @@ mod tests {
         let with_drag = Resolution::of(Level::Two, &PhenomenonSet::none().with(Phenomenon::Drag));
         let without = Resolution::of(Level::Three, &PhenomenonSet::none());
         assert_eq!(with_drag.partial_cmp(&without), None);
-        assert_eq!(with_drag.beyond(&without), [Feature::Phenomenon(Phenomenon::Drag)]);
+        assert_eq!(
+            with_drag.beyond(&without),
+            [Feature::Phenomenon(Phenomenon::Drag)]
+        );
     }
 }

@@ -12,7 +12,7 @@ const PRINT_EVERY: u32 = 200;
 
 /// Body rates, rad/s: a steady pitch up with a wobble, which leads through the vertical.
 fn body_rates(t: f64) -> Vector3<f64> {
-    Vector3::new(0.6 * (3.0 * t).sin(), 1.1, 0.4 * (2.0 * t).cos())
+    Vector3::new(0.05 * (3.0 * t).sin(), 1.1, 0.05 * (2.0 * t).cos())
 }
 
 fn rotation_of(flat: &SVector<f64, 9>) -> Rotation<f64, Body, World> {
@@ -20,7 +20,7 @@ fn rotation_of(flat: &SVector<f64, 9>) -> Rotation<f64, Body, World> {
 }
 
 fn main() {
-    let start = EulerAngles::new(0.1, 0.0, 0.5);
+    let start = EulerAngles::new(0.02, 0.05, 0.5);
     let (mut euler, mut quaternion) = (start, start.quaternion());
     let mut matrix: SVector<f64, 9> = SVector::read(start.rotation().matrix.as_slice());
     println!("Pitching up through the vertical; roll, pitch, yaw in degrees from the quaternion.\n");

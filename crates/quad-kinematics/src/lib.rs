@@ -35,3 +35,8 @@ mod tests;
 pub use euler::{EulerAngles, EulerRates};
 pub use frames::{Body, Camera, FrameVector, Platform, Rotation, World, cross_matrix};
 pub use quaternion::{Quaternion, QuaternionRate};
+
+/// The README's example is tested with the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -142,7 +142,10 @@ impl<R: Real> State<R> for Quaternion<R> {
     #[inline(always)]
     fn normalised(self) -> Self {
         let scale = (constant::<R>(3.0) - self.norm_squared()) * constant(0.5);
-        Self { w: self.w * scale, v: self.v * scale }
+        Self {
+            w: self.w * scale,
+            v: self.v * scale,
+        }
     }
 }
 

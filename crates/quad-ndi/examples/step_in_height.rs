@@ -34,14 +34,21 @@ fn climb(
         println!("diverged at {time_s} s");
         return Ok(None);
     }
-    let height: Vec<(f64, f64)> = log.records.iter().map(|r| (r.time_s, -r.flight.position.z)).collect();
+    let height: Vec<(f64, f64)> = log
+        .records
+        .iter()
+        .map(|r| (r.time_s, -r.flight.position.z))
+        .collect();
     Ok(StepMetrics::of(&height, CLIMB_M))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let vehicle = Vehicle::qball_x4();
     let settings = Settings::default();
-    println!("{}: {CLIMB_M} m up, settling time asked for {} s\n", vehicle.name, settings.height.settling_time_s);
+    println!(
+        "{}: {CLIMB_M} m up, settling time asked for {} s\n",
+        vehicle.name, settings.height.settling_time_s
+    );
     println!("controller  level  settled, s  overshoot, %  steady-state error, mm");
     let controllers: [(&str, AnyController<f64>); 3] = [
         ("c1", AnyController::C1(C1::new(&vehicle, &settings)?.into())),
@@ -49,8 +56,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("c3", AnyController::C3(C3::new(&vehicle, &settings)?.into())),
     ];
     for (name, controller) in controllers {
-        for level in Level::ALL.into_iter().filter(|&level| controller.check(level).is_ok()) {
-            let Some(m) = climb(&vehicle, level, controller.clone())? else { continue };
+        for level in Level::ALL
+            .into_iter()
+            .filter(|&level| controller.check(level).is_ok())
+        {
+            let Some(m) = climb(&vehicle, level, controller.clone())? else {
+                continue;
+            };
             let settled = m.settling_time_s.map_or("-".to_string(), |t| format!("{t:.2}"));
             println!(
                 "{name:<10} {:>6} {settled:>11} {:>13.1} {:>23.1}",
@@ -61,7 +73,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         println!();
     }
-    println!("c1 and c2 don't know the rotors' lag and overshoot from level 3 on; no controller knows that the rotors of");
+    println!(
+        "c1 and c2 don't know the rotors' lag and overshoot from level 3 on; no controller knows that the rotors of"
+    );
     println!("level 5 are not linear, which leaves an error, and its limits and battery.");
     Ok(())
 }

@@ -132,7 +132,10 @@ impl Flyer {
             let reference = reference(time_s);
             let commands = self.controller.update(&flight, &reference, h);
             if !commands.iter().all(|u| u.is_finite()) {
-                let status = FlightStatus::Diverged { time_s, last: Box::new(flight) };
+                let status = FlightStatus::Diverged {
+                    time_s,
+                    last: Box::new(flight),
+                };
                 return FlightLog { records, status };
             }
             if k % every == 0 || k == grid.steps() {
@@ -152,7 +155,10 @@ impl Flyer {
                 .step(FixedStep::Rk4, &Input::still_air(commands), h);
             self.quadrotor.write_state(&mut state);
             if !state.iter().all(|x| x.is_finite()) {
-                let status = FlightStatus::Diverged { time_s: grid.time_s(k + 1), last: Box::new(flight) };
+                let status = FlightStatus::Diverged {
+                    time_s: grid.time_s(k + 1),
+                    last: Box::new(flight),
+                };
                 return FlightLog { records, status };
             }
         }

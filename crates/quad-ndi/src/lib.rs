@@ -85,9 +85,7 @@ pub mod stability;
 mod trajectory;
 
 pub use any::{AnyController, InCharge};
-pub use closed_loop::{
-    FlightLog, FlightPlan, FlightStatus, Flyer, LoopState, Record, closed_loop_step,
-};
+pub use closed_loop::{FlightLog, FlightPlan, FlightStatus, Flyer, LoopState, Record, closed_loop_step};
 pub use controller::{Allocation, Control, Controller, ControllerError, Demand, check_pairing};
 pub use generic::{Decoupling, InversionError};
 pub use inversion::{C1, C2, C3, ObserverState};

@@ -34,16 +34,30 @@ impl StepMetrics {
         if step == 0.0 || !step.is_finite() {
             return None;
         }
-        let last_outside = response.iter().rposition(|&(_, y)| (target - y).abs() > SETTLED * step.abs());
+        let last_outside = response
+            .iter()
+            .rposition(|&(_, y)| (target - y).abs() > SETTLED * step.abs());
         let settling_time_s = match last_outside {
             None => Some(0.0),
             Some(i) => response.get(i + 1).map(|&(t, _)| t - start_s),
         };
-        let overshoot = response.iter().map(|&(_, y)| (y - target) / step).fold(0.0, f64::max);
+        let overshoot = response
+            .iter()
+            .map(|&(_, y)| (y - target) / step)
+            .fold(0.0, f64::max);
         let tail_from = end_s - TAIL * (end_s - start_s);
-        let tail: Vec<f64> = response.iter().filter(|(t, _)| *t >= tail_from).map(|(_, y)| *y).collect();
+        let tail: Vec<f64> = response
+            .iter()
+            .filter(|(t, _)| *t >= tail_from)
+            .map(|(_, y)| *y)
+            .collect();
         let steady_state_error = target - tail.iter().sum::<f64>() / tail.len() as f64;
-        Some(Self { settling_time_s, overshoot, steady_state_error, rms_error: rms(response, |_| target) })
+        Some(Self {
+            settling_time_s,
+            overshoot,
+            steady_state_error,
+            rms_error: rms(response, |_| target),
+        })
     }
 }
 
@@ -54,8 +68,10 @@ pub fn rms(response: &[(f64, f64)], target: impl Fn(f64) -> f64) -> f64 {
         (Some(first), Some(last)) if last.0 > first.0 => last.0 - first.0,
         _ => return response.first().map_or(0.0, |point| square(point).sqrt()),
     };
-    let area: f64 =
-        response.windows(2).map(|p| (p[1].0 - p[0].0) * (square(&p[0]) + square(&p[1])) / 2.0).sum();
+    let area: f64 = response
+        .windows(2)
+        .map(|p| (p[1].0 - p[0].0) * (square(&p[0]) + square(&p[1])) / 2.0)
+        .sum();
     (area / span).sqrt()
 }
 
@@ -76,12 +92,17 @@ impl Effort {
             (squares.sum::<f64>() / 4.0).sqrt()
         };
         let points: Vec<(f64, f64)> = records.iter().map(|r| (r.time_s, distance(r))).collect();
-        let saturated = |r: &Record| {
-            limits.is_some_and(|l| r.commands.iter().any(|&u| u <= l.minimum || u >= l.maximum))
-        };
-        let saturation_time_s =
-            records.windows(2).filter(|w| saturated(&w[0])).map(|w| w[1].time_s - w[0].time_s).sum();
-        Self { rms_command: rms(&points, |_| 0.0), saturation_time_s }
+        let saturated =
+            |r: &Record| limits.is_some_and(|l| r.commands.iter().any(|&u| u <= l.minimum || u >= l.maximum));
+        let saturation_time_s = records
+            .windows(2)
+            .filter(|w| saturated(&w[0]))
+            .map(|w| w[1].time_s - w[0].time_s)
+            .sum();
+        Self {
+            rms_command: rms(&points, |_| 0.0),
+            saturation_time_s,
+        }
     }
 }
 
@@ -93,8 +114,10 @@ mod tests {
     fn exact_first_order_response() {
         // y = 1 − e^(−t): inside 2 % from t = ln 50 on, RMS error over [0, T] = √((1 − e^(−2T)) / 2T).
         let end = 10.0_f64;
-        let response: Vec<(f64, f64)> =
-            (0..=10_000).map(|k| f64::from(k) * 1e-3).map(|t| (t, 1.0 - (-t).exp())).collect();
+        let response: Vec<(f64, f64)> = (0..=10_000)
+            .map(|k| f64::from(k) * 1e-3)
+            .map(|t| (t, 1.0 - (-t).exp()))
+            .collect();
         let m = StepMetrics::of(&response, 1.0).expect("a step");
         // One sample of 1 ms late at most.
         assert!((m.settling_time_s.expect("settled") - 50.0_f64.ln()).abs() <= 1e-3);
@@ -109,7 +132,10 @@ mod tests {
     fn exact_downward_step_with_overshoot() {
         let response = [(0.0, 1.0), (1.0, -0.25), (2.0, 0.0), (3.0, 0.0)];
         let m = StepMetrics::of(&response, 0.0).expect("a step");
-        assert_eq!((m.settling_time_s, m.overshoot, m.steady_state_error), (Some(2.0), 0.25, 0.0));
+        assert_eq!(
+            (m.settling_time_s, m.overshoot, m.steady_state_error),
+            (Some(2.0), 0.25, 0.0)
+        );
         assert_eq!(StepMetrics::of(&response, 1.0), None);
         assert_eq!(StepMetrics::of(&[], 1.0), None);
         let never = StepMetrics::of(&[(0.0, 0.0), (1.0, 0.5)], 1.0).expect("a step");

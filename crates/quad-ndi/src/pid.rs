@@ -1,12 +1,13 @@
 //! Conventional cascaded PID: height; yaw; position → tilt → moments.
 //!
-//! Each loop is `k_p e + I − k_d ẏ_f`: the derivative acts on the measurement (no kick at a step) through
-//! a first-order filter `ẏ_f = N (y − y_f)`, and the integral `İ = k_i e + k_w Δ` is held back by what
+//! Each loop is `k_p e + I − k_d (ẏ_f − ẏ_d)`: the derivative of the measurement comes through a first-order
+//! filter `ẏ_f = N (y − y_f)`, that of the set point from the reference, so a step gives no kick and a ramp no
+//! lag. The integral `İ = k_i e + k_w Δ` is held back by what
 //! saturation took from the output, `Δ = saturated − demanded` (back-calculation). The filter is solved
 //! exactly for a measurement held over the step and `ẏ_f` taken as its mean rate over it, so that a ramp's
 //! slope comes out exact at any step. The loops know the vehicle's weight, inertia and allocation, so gains
 //! are in 1/s², 1/s³ and 1/s and carry over between vehicles; they know nothing of coupling or lag, and use
-//! no feed-forward of the reference's derivatives. [`tune`] finds gains. Source: thesis chapter 6.6.1
+//! no reference derivative above the first. [`tune`] finds gains. Source: thesis chapter 6.6.1
 //! (structure); Åström and Hägglund, *Advanced PID Control*, chapters 3 and 8 (filter, back-calculation).
 
 mod tuning;
@@ -160,7 +161,7 @@ impl<R: Real> Pid<R> {
         })
     }
 
-    /// `k_p e + I − k_d ẏ_f` of one loop.
+    /// `k_p e + I − k_d (ẏ_f − ẏ_d)` of one loop.
     #[inline(always)]
     fn output(&self, i: usize, error: R, integral: R, rate: R) -> R {
         self.proportional[i] * error + integral - self.derivative[i] * rate
@@ -214,8 +215,14 @@ impl<R: Real> Pid<R> {
             flat.position.x - sensed.measured[0],
             flat.position.y - sensed.measured[1],
         ];
-        let raw: [R; 2] =
-            std::array::from_fn(|i| self.output(i, errors[i], memory.integrals[i], sensed.rates[i]));
+        let raw: [R; 2] = std::array::from_fn(|i| {
+            self.output(
+                i,
+                errors[i],
+                memory.integrals[i],
+                sensed.rates[i] - flat.velocity[i],
+            )
+        });
         let g = self.body.gravity;
         let largest = self.tilt_limit * g;
         let size = (raw[0] * raw[0] + raw[1] * raw[1]).simd_sqrt();
@@ -251,7 +258,17 @@ impl<R: Real> Pid<R> {
             outer.tilt[1] - y[4],
             wrapped(reference.flat.yaw - y[YAW]),
         ];
-        let out = |i: usize| self.output(i, errors[i], memory.integrals[i], sensed.rates[i]);
+        // Roll and pitch demands come without rates.
+        let (o, flat) = (R::zero(), &reference.flat);
+        let wanted_rates = [o, o, flat.velocity.z, o, o, flat.yaw_rate];
+        let out = |i: usize| {
+            self.output(
+                i,
+                errors[i],
+                memory.integrals[i],
+                sensed.rates[i] - wanted_rates[i],
+            )
+        };
         let demand = Demand {
             thrust: self.body.mass * (self.body.gravity - out(2)),
             moment: self.body.inertia * Vector3::new(out(3), out(4), out(YAW)),

@@ -67,7 +67,8 @@ fn response<M: RotorModel<f64>>(rotor: &M) -> Vec<RotorOutput<f64>> {
         command,
         voltage: VOLTAGE,
     });
-    let step = |x: M::State| rk4(&|_, x: &M::State| rotor.derivative(x, &after), 0.0, &x, STEP_S);
+    let rate = |_, x: &M::State| rotor.derivative(x, &after);
+    let step = |x: M::State| rk4(rate, 0.0, &x, STEP_S);
     let mut state = rotor.equilibrium(&before);
     let mut elapsed_ms = 0;
     let at = |instant_ms| {
@@ -98,6 +99,7 @@ fn main() {
     let non_linear = NonLinearRotor {
         thrust: THRUST,
         torque: TORQUE,
+        range_end: 0.63,
         zero_thrust_offset: ZERO_THRUST_OFFSET,
         dynamics: DYNAMICS,
     };

@@ -10,7 +10,9 @@
 //! `x` is proportional to the effective motor voltage). The torque is the reaction that a bench
 //! measures: aerodynamic torque and spin-up together, which is where its zero comes from. Source: thesis
 //! chapter 4.5.3 and tables 4.4 to 4.6 for the numbers of coefficients; the forms are this project's
-//! choice. Valid over the range of commands and voltages that the coefficients were fitted on.
+//! choice. Valid over the range of commands and voltages that the coefficients were fitted on; beyond
+//! its ends the polynomials go on as their tangents (kinks of the second derivative there), since a cubic soon
+//! turns round and would make a rotor pull down.
 
 use crate::{RotorInput, RotorModel, RotorOutput, SpinUp};
 use quad_math::{Flat, Rate, Real, State, constant};
@@ -155,6 +157,8 @@ pub struct NonLinearRotor<R: Real> {
     pub thrust: Cubic<R>,
     /// Steady torque, N m, against `x`, V.
     pub torque: Cubic<R>,
+    /// Upper end of the range of `x` that the polynomials hold on, V; the lower end is 0.
+    pub range_end: R,
     /// Zero-thrust duty above the bottom of the range, `ū_0 − ū_min`.
     pub zero_thrust_offset: R,
     /// The responses.
@@ -177,9 +181,12 @@ impl<R: Real> NonLinearRotor<R> {
     #[inline(always)]
     pub fn steady(&self, input: &RotorInput<R>) -> RotorOutput<R> {
         let x = (input.command + self.zero_thrust_offset) * input.voltage;
+        let inside = x.simd_clamp(R::zero(), self.range_end);
+        let beyond = x - inside;
+        let extended = |k: &Cubic<R>| k.value(inside) + k.slope(inside) * beyond;
         RotorOutput {
-            thrust: self.thrust.value(x),
-            torque: self.torque.value(x),
+            thrust: extended(&self.thrust),
+            torque: extended(&self.torque),
         }
     }
 }

@@ -36,3 +36,8 @@ pub use model::{RotorInput, RotorModel, RotorOutput, SpinUp};
 pub use motor::{MechanisticRotor, Motor, SpinRate, SpinState};
 pub use propeller::Propeller;
 pub use simple::{FirstOrderRotor, IdealRotor, ThrustRate, ThrustState};
+
+/// The README's example is tested with the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

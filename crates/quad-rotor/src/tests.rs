@@ -57,6 +57,7 @@ fn non_linear() -> NonLinearRotor<f64> {
             k2: 0.6,
             k3: -0.1,
         },
+        range_end: 0.63,
         zero_thrust_offset: 0.01,
         dynamics: dynamics(),
     }
@@ -67,7 +68,7 @@ fn run<M: RotorModel<f64>>(rotor: &M, start: M::State, input: &RotorInput<f64>, 
     let steps = 2000;
     let h = time / f64::from(steps);
     let f = |_, x: &M::State| rotor.derivative(x, input);
-    (0..steps).fold(start, |x, _| rk4(&f, 0.0, &x, h))
+    (0..steps).fold(start, |x, _| rk4(f, 0.0, &x, h))
 }
 
 /// RK4 with h·pole ≤ 0.02 leaves (h·pole)⁵/120 a step, far below this.
@@ -265,6 +266,24 @@ fn exact_speed_near_zero_thrust() {
     let hover = speed(3.43);
     assert_relative_eq!(hover.re, (3.43_f64 / k_t).sqrt(), max_relative = 1e-15);
     assert_relative_eq!(hover.eps, 1.0 / (2.0 * k_t * hover.re), max_relative = 1e-14);
+}
+
+#[test]
+fn exact_polynomials_continue_as_tangents() {
+    let rotor = non_linear();
+    let at = |x: f64| {
+        let input = RotorInput {
+            command: x / 11.1 - rotor.zero_thrust_offset,
+            voltage: 11.1,
+        };
+        rotor.steady(&input).thrust
+    };
+    let end = rotor.range_end;
+    let (value, slope) = (rotor.thrust.value(end), rotor.thrust.slope(end));
+    // Rounding of commands of order one.
+    assert_relative_eq!(at(end + 5.0), value + 5.0 * slope, max_relative = 1e-12);
+    assert_relative_eq!(at(-0.1), -0.1 * rotor.thrust.k1, max_relative = 1e-12);
+    assert_relative_eq!(at(0.5 * end), rotor.thrust.value(0.5 * end), max_relative = 1e-12);
 }
 
 #[test]

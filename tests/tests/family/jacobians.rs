@@ -38,7 +38,13 @@ fn check<F: Family>(draw: &Draw, on: &PhenomenonSet) -> Result<(), TestCaseError
     let at = join(&model.adopt(&draw.snapshot, &draw.input), &draw.input);
     let columns: Vec<Vec<f64>> = (0..at.len()).map(|j| dual_column::<F>(&dual, &at, j)).collect();
     // The terms that a rate is the sum of: they may cancel, their rounding does not.
-    let terms = |i: usize| columns.iter().zip(&at).map(|(c, x)| (c[i] * x).abs()).sum::<f64>();
+    let terms = |i: usize| {
+        columns
+            .iter()
+            .zip(&at)
+            .map(|(c, x)| (c[i] * x).abs())
+            .sum::<f64>()
+    };
     for (moving, exact) in columns.iter().enumerate() {
         let h = RELATIVE_STEP * at[moving].abs().max(1e-3);
         let differences = difference_column::<F>(&model, &at, moving, h);

@@ -52,7 +52,8 @@ fn agree_hover_of_level_5_with_the_mechanistic_vehicle() {
 #[test]
 fn agree_responses_of_level_5_with_the_mechanistic_vehicle() {
     let vehicle = Vehicle::qball_x4();
-    // Two per cent of raw command: all up, then roll, then yaw.
+    // Two per cent of raw command: all up, then roll, then yaw. The slopes of the cubic and of the mechanistic
+    // rotor at hover differ by six per mille, and so do the responses (0.57 to 0.65 per cent).
     let cases = [[1.02; 4], [1.0, 1.0, 1.02, 0.98], [0.98, 0.98, 1.02, 1.02]];
     for (which, factors) in cases.into_iter().enumerate() {
         let five = response::<Level5<f64>>(&vehicle, factors);
@@ -63,7 +64,6 @@ fn agree_responses_of_level_5_with_the_mechanistic_vehicle() {
                 .collect()
         };
         let error = relative(&pick(&five), &pick(&truth));
-        println!("response {which}: {error}");
-        assert!(error < 0.05, "response {which} differs by {error}");
+        assert!(error < 0.01, "response {which} differs by {error}");
     }
 }

@@ -1,5 +1,6 @@
 //! The battery, part one: states as vectors, hover as a fixed point, finiteness over the valid box.
 
+use crate::support::outputs;
 use family_tests::{
     Draw, Family, FamilyFive, FamilyFour, FamilyMechanistic, FamilyOne, FamilyThree, FamilyTwo, draw, flat,
     from_flat, phenomena, rate, vehicle,
@@ -163,9 +164,7 @@ fn finite<F: Family>(point: &BoxPoint) -> Result<(), TestCaseError> {
     prop_assert!(all_finite(&flat(&model.derivative(&state, &point.input))));
     let next = FixedStep::Rk4.step(&model, &state, &point.input, 1e-3);
     prop_assert!(all_finite(&flat(&next)), "{next:?}");
-    prop_assert!(all_finite(
-        &crate::support::outputs(&model.flight(&state)).as_slice().to_vec()
-    ));
+    prop_assert!(all_finite(outputs(&model.flight(&state)).as_slice()));
 
     let dual = F::Over::<Dual64>::build(&point.vehicle, &on).unwrap();
     let numbers = family_tests::join(&state, &point.input);

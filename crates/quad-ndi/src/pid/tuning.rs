@@ -7,44 +7,29 @@
 //! settling time is designed for, so that the two can be compared fairly. The cost is
 //!
 //! ```text
-//! J = ∫ s ∣y_m − y∣/A ds  +  5 ∫ s ∣A − y∣/A ds  +  0.005 Σ ∣Δu_i∣/(4 u_h)  +  10 max(0, overshoot − 5 %)
+//! J = ∫ s ∣y_m − y∣/A ds  +  2 ∫ s ∣A − y∣/A ds  +  0.005 Σ ∣Δu_i∣/(4 u_h)  +  300 max(0, overshoot − 1 %)²
 //!     step, 0 … 2τ           load, 2τ … 4τ          command activity           overshoot
 //! ```
 //!
 //! with `s` the time since step or load over τ, `A` the step, `u_h` the hover command, `Δu_i` the change of a
-//! command from one sample to the next. A flight that stops being finite costs 1000 and more, the more the sooner.
+//! command from one sample to the next. A flight that stops being finite costs 10⁶ and more, the more the sooner.
 //!
 //! Unknowns are the logarithms of the three gains over those of the reference model, `k_p = ω²`, `k_d = 2ω`,
 //! `k_i = 0.1 ω³`, in a box: factor 10 either way for `k_p` and `k_d`, 30 for `k_i`. Outside the box the cost is
 //! that of the nearest point in it plus the squared distance. Nelder-Mead (argmin) searches from a few starts
-//! drawn within a factor 2 by ChaCha8 (rand_chacha) seeded with [`TuningOptions::seed`]; the best end wins.
-//! The same options give the same gains to the last bit on the same build.
+//! drawn within a factor 4 by ChaCha8 (rand_chacha) seeded with [`TuningOptions::seed`], and once more from the
+//! best end. The same options give the same gains to the last bit on the same build.
 
+mod search;
 mod trial;
 
 use super::{PidGains, PidSettings};
 use crate::controller::ControllerError;
 use crate::settling::{self, LoopError};
-use argmin::core::{CostFunction, Error, Executor, State, TerminationReason};
-use argmin::solver::neldermead::NelderMead;
 use quad_dynamics::{BuildError, Level, Phenomenon, PhenomenonSet, Vehicle};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use std::cell::RefCell;
+use rand_chacha::rand_core::SeedableRng;
 use std::fmt;
-use trial::Bench;
-
-/// Half-widths of the box in the logarithms of `k_p`, `k_i`, `k_d` over the reference model's.
-const BOX: [f64; 3] = [std::f64::consts::LN_10, 3.401_197_381_662_155, std::f64::consts::LN_10];
-
-/// Half-width of the region that starts are drawn from, as a logarithm: a factor 2.
-const START_REGION: f64 = std::f64::consts::LN_2;
-
-/// Edge of the first simplex, as a logarithm.
-const EDGE: f64 = 0.4;
-
-/// Spread of the costs of a simplex, as standard deviation, at which the search has converged.
-const CONVERGED: f64 = 1e-5;
 
 /// Integral gain of the reference model's gains, in ω³.
 const INTEGRAL_SHARE: f64 = 0.1;
@@ -81,13 +66,13 @@ pub struct TuningOptions {
     pub level: Level,
     /// Its phenomena. With input limits the controller knows them too, for its anti-windup.
     pub phenomena: PhenomenonSet,
-    /// Targets of attitude, yaw, height and position.
+    /// Target of roll and pitch; the step in rad.
     pub attitude: LoopTarget,
-    /// See [`TuningOptions::attitude`].
+    /// Target of yaw; the step in rad.
     pub yaw: LoopTarget,
-    /// See [`TuningOptions::attitude`].
+    /// Target of height; the step in m.
     pub height: LoopTarget,
-    /// See [`TuningOptions::attitude`].
+    /// Target of horizontal position; the step in m.
     pub position: LoopTarget,
     /// Bandwidth N of the derivative filters, rad/s; not tuned.
     pub filter_bandwidth_rad_s: f64,
@@ -99,23 +84,26 @@ pub struct TuningOptions {
     pub step_s: f64,
     /// Seed of the starts.
     pub seed: u64,
-    /// Starts per loop.
+    /// Random starts per loop; one more follows from the best end.
     pub starts: usize,
     /// Nelder-Mead iterations per start, of one or two flights each, at most.
     pub iterations: u64,
 }
 
 impl Default for TuningOptions {
-    /// Level 3 with input limits; settling times 0.5, 2, 2 and 5 s.
+    /// Level 3 with input limits; settling times 0.5, 2, 2 and 5 s, steps of 0.1 rad, 1 rad, 1 m and 1 m.
     ///
     /// The attitude loop's 0.5 s is a tenth of the position loop's 5 s, the ratio of the inversions' defaults.
     fn default() -> Self {
-        let target = |settling_time_s, step| LoopTarget { settling_time_s, step };
+        let target = |settling_time_s, step| LoopTarget {
+            settling_time_s,
+            step,
+        };
         Self {
             level: Level::Three,
             phenomena: Level::Three.phenomena().with(Phenomenon::InputLimits),
             attitude: target(0.5, 0.1),
-            yaw: target(2.0, 0.5),
+            yaw: target(2.0, 1.0),
             height: target(2.0, 1.0),
             position: target(5.0, 1.0),
             filter_bandwidth_rad_s: 100.0,
@@ -124,7 +112,7 @@ impl Default for TuningOptions {
             step_s: 0.002,
             seed: 1,
             starts: 3,
-            iterations: 80,
+            iterations: 100,
         }
     }
 }
@@ -149,7 +137,7 @@ pub struct LoopReport {
     pub cost: f64,
     /// Cost of the reference model's gains `ω², 0.1 ω³, 2ω`, which need no search.
     pub cost_before: f64,
-    /// One report per start.
+    /// One report per start, the last being that from the best end.
     pub starts: Vec<StartReport>,
     /// Best cost so far after each flight, over all starts.
     pub history: Vec<f64>,
@@ -193,7 +181,9 @@ pub enum TuningError {
         step: f64,
     },
     /// A sampling time that a flight of 4τ can't have.
-    #[error("tuning option `step_s` = {step_s} makes {samples} samples of a flight of the {tuned} loop: 100 to 1e6 are sensible")]
+    #[error(
+        "tuning option `step_s` = {step_s} makes {samples} samples of a flight of the {tuned} loop: 100 to 1e6 are sensible"
+    )]
     Sampling {
         /// The loop.
         tuned: TunedLoop,
@@ -280,14 +270,21 @@ impl TuningOptions {
             }
         }
         for tuned in TunedLoop::ALL {
-            let LoopTarget { settling_time_s, step } = self.target(tuned);
+            let LoopTarget {
+                settling_time_s,
+                step,
+            } = self.target(tuned);
             if !step.is_finite() || step == 0.0 {
                 return Err(TuningError::Step { tuned, step });
             }
             self.frequency(tuned)?;
             let (step_s, samples) = (self.step_s, trial::FLIGHT * settling_time_s / self.step_s);
             if !(SAMPLES[0]..=SAMPLES[1]).contains(&samples) {
-                return Err(TuningError::Sampling { tuned, step_s, samples });
+                return Err(TuningError::Sampling {
+                    tuned,
+                    step_s,
+                    samples,
+                });
             }
         }
         Ok(())
@@ -326,123 +323,12 @@ pub fn tune(vehicle: &Vehicle, options: &TuningOptions) -> Result<Tuned, TuningE
     let mut generator = ChaCha8Rng::seed_from_u64(options.seed);
     let mut loops = Vec::with_capacity(TunedLoop::ALL.len());
     for tuned in TunedLoop::ALL {
-        let bench = Bench::new(vehicle, options, tuned, &settings)?;
-        let report = search(&bench, options, tuned, &settings, &mut generator);
+        let bench = trial::Bench::new(vehicle, options, tuned, &settings)?;
+        let report = search::search(&bench, options, tuned, &settings, &mut generator);
         *tuned.gains_mut(&mut settings) = report.gains;
         loops.push(report);
     }
     Ok(Tuned { settings, loops })
-}
-
-/// The cost as a function of the logarithms of one loop's gains.
-struct Problem<'a> {
-    bench: &'a Bench,
-    tuned: TunedLoop,
-    settings: PidSettings,
-    /// Costs of all flights so far.
-    costs: RefCell<Vec<f64>>,
-}
-
-impl Problem<'_> {
-    /// The settings with this loop's gains multiplied, and the squared distance from the box.
-    fn settings(&self, logarithms: &[f64]) -> (PidSettings, f64) {
-        let inside: [f64; 3] = std::array::from_fn(|i| logarithms[i].clamp(-BOX[i], BOX[i]));
-        let outside = logarithms.iter().zip(inside).map(|(x, y)| (x - y).powi(2)).sum();
-        let mut settings = self.settings;
-        let gains = self.tuned.gains_mut(&mut settings);
-        gains.proportional *= inside[0].exp();
-        gains.integral *= inside[1].exp();
-        gains.derivative *= inside[2].exp();
-        (settings, outside)
-    }
-}
-
-impl CostFunction for &Problem<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, logarithms: &Vec<f64>) -> Result<f64, Error> {
-        let (settings, outside) = self.settings(logarithms);
-        let cost = self.bench.cost(&settings) + outside;
-        self.costs.borrow_mut().push(cost);
-        Ok(cost)
-    }
-}
-
-/// A number in −1 … 1 from the upper 53 bits of the generator's next word.
-fn unit(generator: &mut ChaCha8Rng) -> f64 {
-    const SCALE: f64 = 1.0 / (1_u64 << 52) as f64;
-    (generator.next_u64() >> 11) as f64 * SCALE - 1.0
-}
-
-fn search(
-    bench: &Bench,
-    options: &TuningOptions,
-    tuned: TunedLoop,
-    settings: &PidSettings,
-    generator: &mut ChaCha8Rng,
-) -> LoopReport {
-    let problem = Problem {
-        bench,
-        tuned,
-        settings: *settings,
-        costs: RefCell::new(Vec::new()),
-    };
-    let mut best = (bench.cost(settings), vec![0.0; BOX.len()]);
-    let cost_before = best.0;
-    let mut starts = Vec::with_capacity(options.starts);
-    for _ in 0..options.starts {
-        let start: Vec<f64> = BOX.iter().map(|_| unit(generator) * START_REGION).collect();
-        let before = problem.costs.borrow().len();
-        let (cost, logarithms, termination) = descend(&problem, start, options.iterations);
-        let evaluations = problem.costs.borrow().len() - before;
-        starts.push(StartReport { cost, evaluations, termination });
-        if cost < best.0 {
-            best = (cost, logarithms);
-        }
-    }
-    let (mut found, _) = problem.settings(&best.1);
-    let mut least = cost_before;
-    let history = problem.costs.into_inner().into_iter().map(|cost| {
-        least = least.min(cost);
-        least
-    });
-    LoopReport {
-        tuned,
-        gains: *tuned.gains_mut(&mut found),
-        cost: best.0,
-        cost_before,
-        starts,
-        history: history.collect(),
-    }
-}
-
-/// Nelder-Mead from one start: best cost, where, and why it stopped.
-fn descend(problem: &Problem<'_>, start: Vec<f64>, iterations: u64) -> (f64, Vec<f64>, Termination) {
-    let mut simplex = vec![start.clone()];
-    for i in 0..start.len() {
-        let mut corner = start.clone();
-        corner[i] += EDGE;
-        simplex.push(corner);
-    }
-    let fallback = (f64::INFINITY, start, Termination::OutOfIterations);
-    // The tolerance is positive and the cost always a number, so neither step fails.
-    let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(CONVERGED) else {
-        return fallback;
-    };
-    let run = Executor::new(problem, solver)
-        .configure(|state| state.max_iters(iterations))
-        .ctrlc(false)
-        .timer(false)
-        .run();
-    let Ok(result) = run else { return fallback };
-    let state = result.state();
-    let termination = match state.get_termination_reason() {
-        Some(TerminationReason::SolverConverged) => Termination::Converged,
-        _ => Termination::OutOfIterations,
-    };
-    let best = state.get_best_param().cloned().unwrap_or(fallback.1);
-    (state.get_best_cost(), best, termination)
 }
 
 #[cfg(test)]

@@ -28,35 +28,119 @@ fn exact_bad_settings_are_named() {
     assert!(good.gains::<f64>().is_ok());
     let mut cases: Vec<(&str, f64, Settings)> = Vec::new();
     for value in [0.0, -2.0, f64::NAN, f64::INFINITY] {
-        let slow = |s: LoopSettings| LoopSettings { settling_time_s: value, ..s };
+        let slow = |s: LoopSettings| LoopSettings {
+            settling_time_s: value,
+            ..s
+        };
         let loose = |s: LoopSettings| LoopSettings { damping: value, ..s };
-        let far = |s: LoopSettings| LoopSettings { pole_ratio: value, ..s };
+        let far = |s: LoopSettings| LoopSettings {
+            pole_ratio: value,
+            ..s
+        };
         let (height, yaw, position) = (good.height, good.yaw, good.position);
         let a = good.attitude;
         cases.extend([
-            ("height.settling_time_s", value, Settings { height: slow(height), ..good }),
-            ("height.damping", value, Settings { height: loose(height), ..good }),
-            ("height.pole_ratio", value, Settings { height: far(height), ..good }),
-            ("yaw.settling_time_s", value, Settings { yaw: slow(yaw), ..good }),
-            ("yaw.damping", value, Settings { yaw: loose(yaw), ..good }),
-            ("yaw.pole_ratio", value, Settings { yaw: far(yaw), ..good }),
-            ("position.settling_time_s", value, Settings { position: slow(position), ..good }),
-            ("position.damping", value, Settings { position: loose(position), ..good }),
-            ("position.pole_ratio", value, Settings { position: far(position), ..good }),
+            (
+                "height.settling_time_s",
+                value,
+                Settings {
+                    height: slow(height),
+                    ..good
+                },
+            ),
+            (
+                "height.damping",
+                value,
+                Settings {
+                    height: loose(height),
+                    ..good
+                },
+            ),
+            (
+                "height.pole_ratio",
+                value,
+                Settings {
+                    height: far(height),
+                    ..good
+                },
+            ),
+            (
+                "yaw.settling_time_s",
+                value,
+                Settings {
+                    yaw: slow(yaw),
+                    ..good
+                },
+            ),
+            (
+                "yaw.damping",
+                value,
+                Settings {
+                    yaw: loose(yaw),
+                    ..good
+                },
+            ),
+            (
+                "yaw.pole_ratio",
+                value,
+                Settings {
+                    yaw: far(yaw),
+                    ..good
+                },
+            ),
+            (
+                "position.settling_time_s",
+                value,
+                Settings {
+                    position: slow(position),
+                    ..good
+                },
+            ),
+            (
+                "position.damping",
+                value,
+                Settings {
+                    position: loose(position),
+                    ..good
+                },
+            ),
+            (
+                "position.pole_ratio",
+                value,
+                Settings {
+                    position: far(position),
+                    ..good
+                },
+            ),
             (
                 "attitude.frequency_ratio",
                 value,
-                Settings { attitude: AttitudeSettings { frequency_ratio: value, ..a }, ..good },
+                Settings {
+                    attitude: AttitudeSettings {
+                        frequency_ratio: value,
+                        ..a
+                    },
+                    ..good
+                },
             ),
             (
                 "attitude.damping",
                 value,
-                Settings { attitude: AttitudeSettings { damping: value, ..a }, ..good },
+                Settings {
+                    attitude: AttitudeSettings { damping: value, ..a },
+                    ..good
+                },
             ),
             (
                 "attitude.pole_ratio",
                 value,
-                Settings { attitude: AttitudeSettings { pole_ratio: value, ..a }, ..good },
+                Settings {
+                    attitude: AttitudeSettings {
+                        pole_ratio: value,
+                        ..a
+                    },
+                    ..good
+                },
             ),
         ]);
     }
@@ -68,7 +152,10 @@ fn exact_bad_settings_are_named() {
             C3::<f64>::new(&vehicle, settings).map(|_| ()).unwrap_err(),
         ] {
             let message = refused.to_string();
-            assert!(message.contains(key) && message.contains(&value.to_string()), "{message}");
+            assert!(
+                message.contains(key) && message.contains(&value.to_string()),
+                "{message}"
+            );
         }
     }
 }
@@ -78,14 +165,62 @@ fn exact_bad_pid_settings_are_named() {
     let vehicle = Vehicle::qball_x4();
     let good = pid_settings();
     assert!(Pid::<f64>::new(&vehicle, &good).is_ok());
-    let bad_gain = PidGains { derivative: -1.0, ..good.attitude };
+    let bad_gain = PidGains {
+        derivative: -1.0,
+        ..good.attitude
+    };
     let cases = [
-        ("height", "NaN", PidSettings { height: PidGains { integral: f64::NAN, ..good.height }, ..good }),
-        ("attitude", "-1", PidSettings { attitude: bad_gain, ..good }),
-        ("filter_bandwidth_rad_s", "0", PidSettings { filter_bandwidth_rad_s: 0.0, ..good }),
-        ("anti_windup_per_s", "inf", PidSettings { anti_windup_per_s: f64::INFINITY, ..good }),
-        ("tilt_limit_rad", "1.6", PidSettings { tilt_limit_rad: 1.6, ..good }),
-        ("tilt_limit_rad", "-0.1", PidSettings { tilt_limit_rad: -0.1, ..good }),
+        (
+            "height",
+            "NaN",
+            PidSettings {
+                height: PidGains {
+                    integral: f64::NAN,
+                    ..good.height
+                },
+                ..good
+            },
+        ),
+        (
+            "attitude",
+            "-1",
+            PidSettings {
+                attitude: bad_gain,
+                ..good
+            },
+        ),
+        (
+            "filter_bandwidth_rad_s",
+            "0",
+            PidSettings {
+                filter_bandwidth_rad_s: 0.0,
+                ..good
+            },
+        ),
+        (
+            "anti_windup_per_s",
+            "inf",
+            PidSettings {
+                anti_windup_per_s: f64::INFINITY,
+                ..good
+            },
+        ),
+        (
+            "tilt_limit_rad",
+            "1.6",
+            PidSettings {
+                tilt_limit_rad: 1.6,
+                ..good
+            },
+        ),
+        (
+            "tilt_limit_rad",
+            "-0.1",
+            PidSettings {
+                tilt_limit_rad: -0.1,
+                ..good
+            },
+        ),
     ];
     for (key, value, settings) in &cases {
         let message = Pid::<f64>::new(&vehicle, settings).unwrap_err().to_string();
@@ -101,9 +236,17 @@ fn exact_a_singular_control_matrix_is_an_error() {
         rotor.position = Vector3::new(x, 0.0, 0.0);
     }
     let refused = C2::<f64>::new(&vehicle, &Settings::default()).unwrap_err();
-    assert_eq!(refused, ControllerError::SingularControlMatrix { vehicle: "four in a row".into() });
+    assert_eq!(
+        refused,
+        ControllerError::SingularControlMatrix {
+            vehicle: "four in a row".into()
+        }
+    );
     let message = refused.to_string();
-    assert!(message.contains("four in a row") && message.contains("singular"), "{message}");
+    assert!(
+        message.contains("four in a row") && message.contains("singular"),
+        "{message}"
+    );
     let mut torqueless = Vehicle::qball_x4();
     torqueless.linear_rotor.torque_gain = 0.0;
     assert!(matches!(
@@ -120,17 +263,27 @@ fn exact_a_controller_above_its_model_is_refused() {
         (AnyController::C1(C1::new(&vehicle, &s).unwrap().into()), 1),
         (AnyController::C2(C2::new(&vehicle, &s).unwrap().into()), 2),
         (AnyController::C3(C3::new(&vehicle, &s).unwrap().into()), 3),
-        (AnyController::Pid(Pid::new(&vehicle, &pid_settings()).unwrap().into()), 1),
+        (
+            AnyController::Pid(Pid::new(&vehicle, &pid_settings()).unwrap().into()),
+            1,
+        ),
     ];
     for (controller, lowest) in controllers {
         for level in Level::ALL {
             let on = PhenomenonSet::none();
             let model = AnyQuadrotor::hovering(level, &vehicle, &on, Vector3::zeros(), 0.0).unwrap();
             let pairing = Flyer::new(&vehicle, model, controller.clone());
-            assert_eq!(pairing.is_ok(), level.number() >= lowest, "{controller:?} {level}");
+            assert_eq!(
+                pairing.is_ok(),
+                level.number() >= lowest,
+                "{controller:?} {level}"
+            );
             if let Err(refused) = pairing {
                 let message = refused.to_string();
-                assert!(message.contains(&format!("controller of level {lowest}")), "{message}");
+                assert!(
+                    message.contains(&format!("controller of level {lowest}")),
+                    "{message}"
+                );
                 assert!(message.contains(&format!("model of {level}")), "{message}");
             }
         }

@@ -25,7 +25,14 @@ fn after<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
         commands: [R::zero(); 4],
     };
     for _ in 0..STEPS {
-        now = closed_loop_step(model, controller, &now, &reference, &Vector3::zeros(), constant(STEP_S));
+        now = closed_loop_step(
+            model,
+            controller,
+            &now,
+            &reference,
+            &Vector3::zeros(),
+            constant(STEP_S),
+        );
     }
     let mut out = vec![R::zero(); <StateOf<R, M> as Flat<R>>::LEN + C::Memory::LEN];
     now.state.write(&mut out);
@@ -36,7 +43,12 @@ fn after<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
 
 /// Runs starts side by side and each alone in double precision; the largest difference, relative to one or to
 /// the number if it is larger.
-fn worst<V, MV, M, CV, C>(models: (&MV, &M), controllers: (&CV, &C), starts: &[Vec<f64>], targets: &[[f64; 4]]) -> f64
+fn worst<V, MV, M, CV, C>(
+    models: (&MV, &M),
+    controllers: (&CV, &C),
+    starts: &[Vec<f64>],
+    targets: &[[f64; 4]],
+) -> f64
 where
     V: Real + SimdValue<Element: Into<f64> + Real>,
     MV: QuadrotorModel<V>,
@@ -68,7 +80,14 @@ where
 
 /// Tilt and rates moderate, so that no branch of a select lies within rounding of its edge.
 fn moments() -> impl Strategy<Value = Vec<Moment>> {
-    prop::collection::vec(moment(Ranges { tilt: 0.6, rate: 1.0, share: 0.3 }), 4)
+    prop::collection::vec(
+        moment(Ranges {
+            tilt: 0.6,
+            rate: 1.0,
+            share: 0.3,
+        }),
+        4,
+    )
 }
 
 macro_rules! lanes {

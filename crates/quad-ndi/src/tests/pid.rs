@@ -7,7 +7,11 @@ use crate::metrics::StepMetrics;
 use crate::{AnyController, Controller, FlightLog, Pid, PidGains, PidSettings, Reference};
 use quad_dynamics::{CommandLimits, Flight, Level, Level2, Phenomenon, PhenomenonSet};
 
-const NO_GAINS: PidGains = PidGains { proportional: 0.0, integral: 0.0, derivative: 0.0 };
+const NO_GAINS: PidGains = PidGains {
+    proportional: 0.0,
+    integral: 0.0,
+    derivative: 0.0,
+};
 
 fn hovering(vehicle: &Vehicle) -> Flight<f64> {
     let model = Level2::<f64>::build(vehicle, &PhenomenonSet::none()).unwrap();
@@ -20,7 +24,10 @@ fn exact_derivative_filter_on_a_ramp() {
     let vehicle = Vehicle::qball_x4();
     let (slope, bandwidth) = (0.7, 40.0);
     let settings = PidSettings {
-        height: PidGains { derivative: 3.0, ..NO_GAINS },
+        height: PidGains {
+            derivative: 3.0,
+            ..NO_GAINS
+        },
         filter_bandwidth_rad_s: bandwidth,
         ..pid_settings()
     };
@@ -49,7 +56,10 @@ fn exact_demanded_tilt_stops_at_its_limit() {
     // Far away in a random direction: the tilt loops, proportional only, show what they were asked for.
     let vehicle = Vehicle::qball_x4();
     let settings = PidSettings {
-        attitude: PidGains { proportional: 10.0, ..NO_GAINS },
+        attitude: PidGains {
+            proportional: 10.0,
+            ..NO_GAINS
+        },
         tilt_limit_rad: 0.4,
         ..pid_settings()
     };
@@ -65,13 +75,19 @@ fn exact_demanded_tilt_stops_at_its_limit() {
 fn height_step(settings: &PidSettings, level: Level, on: &PhenomenonSet, step: f64, end_s: f64) -> FlightLog {
     let vehicle = Vehicle::qball_x4();
     let pid = AnyController::Pid(Pid::new(&vehicle, settings).unwrap().into());
-    let limits = on.contains(Phenomenon::InputLimits).then(|| CommandLimits::of(&vehicle));
+    let limits = on
+        .contains(Phenomenon::InputLimits)
+        .then(|| CommandLimits::of(&vehicle));
     let up = Reference::hold(Vector3::new(0.0, 0.0, -step), 0.0);
     fly(level, on, pid.with_limits(limits), 0.0, &plan(end_s, 10), up)
 }
 
 fn metrics(log: &FlightLog, target: f64) -> StepMetrics {
-    let response: Vec<(f64, f64)> = log.records.iter().map(|r| (r.time_s, r.flight.position.z)).collect();
+    let response: Vec<(f64, f64)> = log
+        .records
+        .iter()
+        .map(|r| (r.time_s, r.flight.position.z))
+        .collect();
     StepMetrics::of(&response, target).unwrap()
 }
 
@@ -79,41 +95,39 @@ fn metrics(log: &FlightLog, target: f64) -> StepMetrics {
 fn prop_integral_action_removes_the_error_of_the_non_linear_rotor() {
     // On level 5 the linear rotor that PID believes in is wrong by some per cent of thrust, and the battery sags.
     let good = pid_settings();
-    let without = PidSettings { height: PidGains { integral: 0.0, ..good.height }, ..good };
+    let without = PidSettings {
+        height: PidGains {
+            integral: 0.0,
+            ..good.height
+        },
+        ..good
+    };
     let on = Level::Five.phenomena();
     let [left, removed] = [without, good].map(|s| {
         let log = height_step(&s, Level::Five, &on, 1.0, 30.0);
         metrics(&log, -1.0).steady_state_error.abs()
     });
-    eprintln!("steady-state error without {left} m, with {removed} m");
     // What remains with it is the lag behind the battery's slow sag.
     assert!(left > 0.02, "{left}");
     assert!(removed < 0.05 * left, "{removed}");
 }
 
 #[test]
-fn scan() {
-    let on = PhenomenonSet::none().with(Phenomenon::InputLimits);
-    for step in [5.0, 10.0, 30.0] {
-        for k in [1e-9, 0.2, 0.5, 1.0, 2.0, 4.0] {
-            let s = PidSettings { anti_windup_per_s: k, ..pid_settings() };
-            let log = height_step(&s, Level::Three, &on, step, 40.0);
-            eprintln!("{step} {k} {:?}", metrics(&log, -step));
-        }
-    }
-}
-
-#[test]
 fn prop_anti_windup_recovers_faster() {
-    // 30 m up: the rotors are at their limits for seconds, and the integral of the error has time to grow.
+    // 10 m up: the rotors are at their limits for a second, and the integral of the error has time to grow.
     let on = PhenomenonSet::none().with(Phenomenon::InputLimits);
-    let with = height_step(&pid_settings(), Level::Three, &on, 30.0, 40.0);
-    let wound = PidSettings { anti_windup_per_s: 1e-9, ..pid_settings() };
-    let without = height_step(&wound, Level::Three, &on, 30.0, 40.0);
-    let saturated = with.records.iter().filter(|r| r.commands[0] > 0.99 * r.commands[0].max(0.04)).count();
-    let [with, without] = [with, without].map(|log| metrics(&log, -30.0));
-    eprintln!("{saturated} records at the limit; with {with:?}, without {without:?}");
-    let settled = with.settling_time_s.unwrap();
-    assert!(without.settling_time_s.is_none_or(|t| t > settled + 1.0), "{with:?} {without:?}");
-    assert!(with.overshoot < 0.7 * without.overshoot, "{with:?} {without:?}");
+    let fast = pid_settings();
+    let slow = PidSettings {
+        anti_windup_per_s: 1e-9,
+        ..fast
+    };
+    let [with, without] =
+        [fast, slow].map(|s| metrics(&height_step(&s, Level::Three, &on, 10.0, 40.0), -10.0));
+    let [settled, late] = [with, without].map(|m| m.settling_time_s.unwrap());
+    // Measured: 3.2 s without overshoot against 9.2 s with 19 %.
+    assert!(settled < 0.5 * late, "{settled} {late}");
+    assert!(
+        with.overshoot < 0.02 && without.overshoot > 0.1,
+        "{with:?} {without:?}"
+    );
 }

@@ -12,7 +12,12 @@ const STEPS: [f64; 4] = [0.008, 0.004, 0.002, 0.001];
 const END: f64 = 1.6;
 
 /// Largest distance of height and heading from the design, over the flight.
-fn error<M: QuadrotorModel<f64>, C: Controller<f64>>(vehicle: &Vehicle, controller: &C, order: usize, h: f64) -> f64 {
+fn error<M: QuadrotorModel<f64>, C: Controller<f64>>(
+    vehicle: &Vehicle,
+    controller: &C,
+    order: usize,
+    h: f64,
+) -> f64 {
     let model = M::build(vehicle, &PhenomenonSet::none()).unwrap();
     let hover = model.hover(Vector3::zeros(), 0.0);
     let reference = Reference::hold(Vector3::new(0.0, 0.0, 1.0), 1.0);
@@ -30,18 +35,22 @@ fn error<M: QuadrotorModel<f64>, C: Controller<f64>>(vehicle: &Vehicle, controll
         if k % every == 0 {
             let flight = model.flight(&now.state);
             let [z, psi] = designed.each_ref().map(|p| step_response(p, k as f64 * h));
-            worst = worst.max((flight.position.z - z).abs()).max((flight.attitude.yaw - psi).abs());
+            worst = worst
+                .max((flight.position.z - z).abs())
+                .max((flight.attitude.yaw - psi).abs());
         }
     }
     worst
 }
 
 fn falls_by_order_one(name: &str, errors: [f64; 4]) {
-    eprintln!("{name}: {errors:?}");
     for pair in errors.windows(2) {
         // The second-order term is `h` times a pole, at most 12 rad/s here, of the first: a tenth at the coarse end.
         let order = (pair[0] / pair[1]).log2();
-        assert!((order - 1.0).abs() < 0.2, "{name}: order {order}, errors {errors:?}");
+        assert!(
+            (order - 1.0).abs() < 0.2,
+            "{name}: order {order}, errors {errors:?}"
+        );
     }
 }
 

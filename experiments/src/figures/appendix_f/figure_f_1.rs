@@ -9,7 +9,7 @@ use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 pub(super) const ITEM: Item = Item {
     id: "F.1",
     title: "Step in *x* on level 1: frequency ratio varied",
-    description: "Unit step in *x* on level 1 under c1 with *ζ*_{p} = 1, *ζ*_{a} = 1, *τ*_{s,p} = 2 s: the attitude loop's natural frequency as a multiple of the position loop's. Above the position, below the pitch that moves it.",
+    description: "Unit step in *x* on level 1 under c1 with *ζ*_{p} = 1, *ζ*_{a} = 1, *τ*_{s,p} = 2 s: the attitude loop's natural frequency as a multiple of the position loop's (legend). Above the position, below the pitch that moves it.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[CHANGES],
@@ -27,10 +27,30 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let slow = runs[0].position();
     let apart = runs[1..]
         .iter()
-        .map(|run| run.position().iter().zip(&slow).map(|(a, b)| (a.1 - b.1).abs()).fold(0.0, f64::max))
+        .map(|run| {
+            run.position()
+                .iter()
+                .zip(&slow)
+                .map(|(a, b)| (a.1 - b.1).abs())
+                .fold(0.0, f64::max)
+        })
         .fold(f64::INFINITY, f64::min);
     let labels = ["Position *x*, m", "Pitch *θ*, rad"];
-    let picture = sweep::picture(varied, &runs, labels, [|r| r.flight.position.x, |r| r.flight.attitude.pitch], Some(1.0));
-    Ok(Drawing::picture(picture).data(sweep::table(varied, &runs)).scenario(&sweep::scenario(varied, runs[0].value))?.check(CHANGES, apart > VISIBLE_M, format!("every response is at least {apart:.3} m from that of the smallest ratio"))
+    let picture = sweep::picture(
+        varied,
+        &runs,
+        labels,
+        [|r| r.flight.position.x, |r| r.flight.attitude.pitch],
+        Some(1.0),
+        5.0,
+    );
+    Ok(Drawing::picture(picture)
+        .data(sweep::table(varied, &runs))
+        .scenario(&sweep::scenario(varied, runs[0].value))?
+        .check(
+            CHANGES,
+            apart > VISIBLE_M,
+            format!("every response is at least {apart:.3} m from that of the smallest ratio"),
+        )
         .note("the scenario file has the first of the values; the others differ in this one setting"))
 }

@@ -19,7 +19,16 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let varied = Varied::Damping;
     let runs = sweep::fly(context, varied)?;
     let labels = ["Position *x*, m", "Pitch *θ*, rad"];
-    let picture = sweep::picture(varied, &runs, labels, [|r| r.flight.position.x, |r| r.flight.attitude.pitch], Some(1.0));
-    Ok(Drawing::picture(picture).data(sweep::table(varied, &runs)).scenario(&sweep::scenario(varied, runs[0].value))?
+    let picture = sweep::picture(
+        varied,
+        &runs,
+        labels,
+        [|r| r.flight.position.x, |r| r.flight.attitude.pitch],
+        Some(1.0),
+        5.0,
+    );
+    Ok(Drawing::picture(picture)
+        .data(sweep::table(varied, &runs))
+        .scenario(&sweep::scenario(varied, runs[0].value))?
         .note("the scenario file has the first of the values; the others differ in this one setting"))
 }

@@ -10,4 +10,10 @@ mod sweep;
 mod table_f_1;
 
 /// The items of this appendix.
-pub(super) const ITEMS: &[Item] = &[figure_f_1::ITEM, figure_f_2::ITEM, figure_f_3::ITEM, figure_f_4::ITEM, table_f_1::ITEM];
+pub(super) const ITEMS: &[Item] = &[
+    figure_f_1::ITEM,
+    figure_f_2::ITEM,
+    figure_f_3::ITEM,
+    figure_f_4::ITEM,
+    table_f_1::ITEM,
+];

@@ -27,7 +27,7 @@ impl Varied {
 
     fn name(self, value: f64) -> String {
         match self {
-            Self::FrequencyRatio => format!("*ω*_{{n,a}} = {value} *ω*_{{n,p}}"),
+            Self::FrequencyRatio => format!("{value} *ω*_{{n,p}}"),
             Self::Damping => format!("*ζ*_{{a}} = {value}"),
         }
     }
@@ -43,11 +43,28 @@ impl Varied {
 /// The appendix' settings: ζ_p = 1, τ_s,p = 2 s, and one value of what is varied.
 pub(super) fn scenario(varied: Varied, value: f64) -> Scenario {
     let attitude = match varied {
-        Varied::FrequencyRatio => AttitudeSettings { frequency_ratio: value, ..AttitudeSettings::default() },
-        Varied::Damping => AttitudeSettings { damping: value, ..AttitudeSettings::default() },
+        Varied::FrequencyRatio => AttitudeSettings {
+            frequency_ratio: value,
+            ..AttitudeSettings::default()
+        },
+        Varied::Damping => AttitudeSettings {
+            damping: value,
+            ..AttitudeSettings::default()
+        },
     };
-    let position = LoopSettings { settling_time_s: 2.0, ..LoopSettings::default() };
-    Scenario::position_step(Law::C1, Settings { position, attitude, ..Settings::default() }, 5.0)
+    let position = LoopSettings {
+        settling_time_s: 2.0,
+        ..LoopSettings::default()
+    };
+    Scenario::position_step(
+        Law::C1,
+        Settings {
+            position,
+            attitude,
+            ..Settings::default()
+        },
+        5.0,
+    )
 }
 
 /// One flight of a sweep.
@@ -78,7 +95,12 @@ impl Run {
 
 /// Flies level 1 once for each value.
 pub(super) fn fly(context: &Context, varied: Varied) -> Result<Vec<Run>, ItemError> {
-    let run = |value| Ok(Run { value, log: scenario(varied, value).fly(context, Level::One)? });
+    let run = |value| {
+        Ok(Run {
+            value,
+            log: scenario(varied, value).fly(context, Level::One)?,
+        })
+    };
     varied.values().into_iter().map(run).collect()
 }
 
@@ -89,17 +111,26 @@ pub(super) fn picture(
     labels: [&str; 2],
     quantities: [fn(&quad_ndi::Record) -> f64; 2],
     step: Option<f64>,
+    until_s: f64,
 ) -> Svg {
     let mut panels = labels.map(|label| Panel::new("Time *t*, s", label));
     for (i, run) in runs.iter().enumerate() {
         for (panel, quantity) in panels.iter_mut().zip(quantities) {
             let points = series(&run.log, quantity);
-            *panel = panel.clone().line(varied.name(run.value), series_style(i), points);
+            *panel = panel
+                .clone()
+                .line(varied.name(run.value), series_style(i), points);
         }
     }
     let [above, below] = panels;
     let above = step.into_iter().fold(above, |panel, y| panel.horizontal(y, ""));
-    Figure::columns(1).panel(above).panel(below).share_x().panel_size(440.0, 185.0).draw()
+    let [above, below] = [above, below].map(|panel| panel.x_range(0.0, until_s));
+    Figure::columns(1)
+        .panel(above)
+        .panel(below)
+        .share_x()
+        .panel_size(440.0, 185.0)
+        .draw()
 }
 
 /// Columns: the value varied, time, position, pitch, longitudinal input.

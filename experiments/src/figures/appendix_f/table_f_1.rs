@@ -21,7 +21,8 @@ pub(super) const ITEM: Item = Item {
     make: Make::Draw(draw),
 };
 
-const AGREES: Claim = Claim::holds("the array agrees with eigenvalues everywhere on the grid of frequency ratio and damping");
+const AGREES: Claim =
+    Claim::holds("the array agrees with eigenvalues everywhere on the grid of frequency ratio and damping");
 const NUMERIC: Claim = Claim::holds("the symbolic entries evaluate to the numeric array");
 
 /// Real parts nearer to zero than this, rad/s, are the boundary itself, where rounding decides.
@@ -46,7 +47,11 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
             entry.expression.to_owned(),
             format!("{value:.3}"),
         ]);
-        data.push([(entry.power as f64).into(), (entry.column as f64).into(), value.into()]);
+        data.push([
+            (entry.power as f64).into(),
+            (entry.column as f64).into(),
+            value.into(),
+        ]);
     }
     let (points, disagreements) = compare_on_grid(position)?;
     let limit = frequency_ratio_limit(1.0, 1.0)?;

@@ -32,10 +32,18 @@ fn entries(context: &Context, file: &str) -> Result<Vec<(String, String, String)
 }
 
 fn collect(path: &str, value: &toml::Value, found: &mut Vec<(String, String, String)>) {
-    let below = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+    let below = |key: &str| {
+        if path.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{path}.{key}")
+        }
+    };
     match value {
         toml::Value::Table(table) => {
-            if let (Some(value), Some(toml::Value::String(source))) = (table.get("value"), table.get("source")) {
+            if let (Some(value), Some(toml::Value::String(source))) =
+                (table.get("value"), table.get("source"))
+            {
                 found.push((path.to_owned(), value.to_string(), source.clone()));
                 return;
             }
@@ -53,13 +61,20 @@ fn collect(path: &str, value: &toml::Value, found: &mut Vec<(String, String, Str
 }
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let vendor: BTreeMap<String, String> =
-        entries(context, VENDOR_VEHICLE)?.into_iter().map(|(key, value, _)| (key, value)).collect();
+    let vendor: BTreeMap<String, String> = entries(context, VENDOR_VEHICLE)?
+        .into_iter()
+        .map(|(key, value, _)| (key, value))
+        .collect();
     let mut shown = DisplayTable::new(["Property", "Nominal", "Vendor", "Source of the nominal value"]);
     let mut data = DataTable::new(["property", "nominal", "vendor", "source"]);
     for (key, value, source) in entries(context, NOMINAL_VEHICLE)? {
         let by_vendor = vendor.get(&key).cloned().unwrap_or_default();
-        data.push([key.as_str().into(), value.as_str().into(), by_vendor.as_str().into(), source.as_str().into()]);
+        data.push([
+            key.as_str().into(),
+            value.as_str().into(),
+            by_vendor.as_str().into(),
+            source.as_str().into(),
+        ]);
         shown.push([escaped(&key), value, by_vendor, escaped(&source)]);
     }
     Ok(Drawing::table(shown).data(data))

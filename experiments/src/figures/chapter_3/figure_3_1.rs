@@ -47,7 +47,13 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let geometry = RotorGeometry::<f64>::of(&vehicle);
     let r_wb = EulerAngles::new(0.12, 0.16, 0.35).rotation();
     let mut diagram = Diagram::new(640.0, 430.0);
-    axes(&mut diagram, ORIGIN, &Rotation::<f64, World, World>::identity(), ["*x*_{W} north", "*y*_{W} east", "*z*_{W} down"], 0.45);
+    axes(
+        &mut diagram,
+        ORIGIN,
+        &Rotation::<f64, World, World>::identity(),
+        ["*x*_{W} north", "*y*_{W} east", "*z*_{W} down"],
+        0.45,
+    );
     diagram.line(&[ORIGIN, CENTRE], CONSTRUCTION);
     diagram.text(at(205.0, 285.0), "*r*");
     let arm = vehicle.airframe.arm_length;
@@ -55,51 +61,91 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         let hub = vehicle.rotors[i].position / arm;
         rotor(&mut diagram, &r_wb, hub, geometry.spin[i], i + 1);
     }
-    axes(&mut diagram, CENTRE, &r_wb, ["*x*_{B}", "*y*_{B}", "*z*_{B}"], 0.5);
+    axes(
+        &mut diagram,
+        CENTRE,
+        &r_wb,
+        ["*x*_{B}", "*y*_{B}", "*z*_{B}"],
+        0.62,
+    );
     let weight = CENTRE.offset(0.0, 135.0);
     diagram.arrow(&[CENTRE, weight], Look::solid(GREY, 2.2));
-    diagram.text(weight.offset(8.0, -2.0), "*m g*");
+    diagram.text(weight.offset(-18.0, 0.0), "*m g*");
     let (sideways, along) = extremes(&geometry);
     Ok(Drawing::picture(diagram.finish())
-        .check(ALONG_AXIS, sideways == 0.0, format!("largest component of unit thrusts across −z_B: {sideways}"))
-        .check(OPPOSES, along < 0.0, format!("largest yaw moment of unit torques along the spin: {along}")))
+        .check(
+            ALONG_AXIS,
+            sideways == 0.0,
+            format!("largest component of unit thrusts across −z_B: {sideways}"),
+        )
+        .check(
+            OPPOSES,
+            along < 0.0,
+            format!("largest yaw moment of unit torques along the spin: {along}"),
+        ))
 }
 
 /// Largest sideways force of a unit thrust, and largest component of a unit torque along the spin.
 fn extremes(geometry: &RotorGeometry<f64>) -> (f64, f64) {
     let mut found = (0.0_f64, f64::NEG_INFINITY);
     for i in 0..4 {
-        let mut rotors = [RotorOutput { thrust: 0.0, torque: 0.0 }; 4];
-        rotors[i] = RotorOutput { thrust: 1.0, torque: 1.0 };
+        let mut rotors = [RotorOutput {
+            thrust: 0.0,
+            torque: 0.0,
+        }; 4];
+        rotors[i] = RotorOutput {
+            thrust: 1.0,
+            torque: 1.0,
+        };
         let wrench = geometry.wrench(&rotors);
         let off_axis = (wrench.force + Vector3::z()).norm();
-        found = (found.0.max(off_axis), found.1.max(wrench.moment.z * geometry.spin[i]));
+        found = (
+            found.0.max(off_axis),
+            found.1.max(wrench.moment.z * geometry.spin[i]),
+        );
     }
     found
 }
 
-fn axes<From>(diagram: &mut Diagram, origin: Point, r: &Rotation<f64, From, World>, names: [&str; 3], length: f64) {
+fn axes<From>(
+    diagram: &mut Diagram,
+    origin: Point,
+    r: &Rotation<f64, From, World>,
+    names: [&str; 3],
+    length: f64,
+) {
     for (axis, name) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(names) {
         let v_w = r.rotate(FrameVector::from_components(axis * length)).v;
         let tip = page(origin, v_w, SCALE);
         diagram.arrow(&[origin, tip], ARROW);
-        let (dx, dy) = if tip.x >= origin.x { (7.0, 4.0) } else { (-22.0, -4.0) };
-        diagram.text(tip.offset(dx, if tip.y > origin.y + 20.0 { 14.0 } else { dy }), name);
+        // The name stands beyond the tip, in the direction of the arrow.
+        let (dx, dy) = (tip.x - origin.x, tip.y - origin.y);
+        let size = dx.hypot(dy).max(1.0);
+        let gap = 14.0 + 14.0 * (dx / size).abs() * f64::from(u8::from(name.len() > 8));
+        diagram.text(tip.offset(gap * dx / size, gap * dy / size + 4.0), name);
     }
 }
 
 /// One rotor: arm, disc, thrust, and the reaction torque as an arc against the spin.
-fn rotor(diagram: &mut Diagram, r_wb: &Rotation<f64, Body, World>, hub: Vector3<f64>, spin: f64, number: usize) {
+fn rotor(
+    diagram: &mut Diagram,
+    r_wb: &Rotation<f64, Body, World>,
+    hub: Vector3<f64>,
+    spin: f64,
+    number: usize,
+) {
     let to_page = |v_b: Vector3<f64>| page(CENTRE, r_wb.rotate(FrameVector::from_components(v_b)).v, SCALE);
     let around = |radius: f64, from: f64, to: f64| -> Vec<Point> {
         let at_angle = |a: f64| to_page(hub + Vector3::new(radius * a.cos(), radius * a.sin(), 0.0));
-        (0..=48).map(|k| at_angle(from + (to - from) * f64::from(k) / 48.0)).collect()
+        (0..=48)
+            .map(|k| at_angle(from + (to - from) * f64::from(k) / 48.0))
+            .collect()
     };
     diagram.line(&[CENTRE, to_page(hub)], Look::solid(GREY, 5.0));
     diagram.line(&around(0.42, 0.0, std::f64::consts::TAU), Look::solid(GREY, 1.0));
     let thrust_tip = to_page(hub - Vector3::z() * 0.62);
     diagram.arrow(&[to_page(hub), thrust_tip], Look::solid(BLUE, 2.2));
-    diagram.text(thrust_tip.offset(6.0, 4.0), &format!("*T*_{{{number}}}"));
+    diagram.text(thrust_tip.offset(14.0, -2.0), &format!("*T*_{{{number}}}"));
     // Positive angles about z_B go clockwise seen from above; the torque goes the other way.
     diagram.arrow(&around(0.3, 0.3, 0.3 - spin * 4.2), Look::solid(VERMILION, 1.8));
     let label = to_page(hub * 1.62);

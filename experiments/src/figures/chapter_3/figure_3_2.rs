@@ -25,26 +25,59 @@ pub(super) const ITEM: Item = Item {
     make: Make::Draw(draw),
 };
 
-const SIGNS: Claim = Claim::holds("signs follow from the control matrix C: each pseudo-input moves its own axis, positively, and no other");
+const SIGNS: Claim = Claim::holds(
+    "signs follow from the control matrix C: each pseudo-input moves its own axis, positively, and no other",
+);
 
-const NAMES: [&str; 4] = ["Collective *u*_{col}: climb", "Lateral *u*_{lat}: roll right", "Longitudinal *u*_{long}: pitch up", "Yaw *u*_{yaw}: turn right"];
+const NAMES: [&str; 4] = [
+    "Collective *u*_{col}: climb",
+    "Lateral *u*_{lat}: roll right",
+    "Longitudinal *u*_{long}: pitch up",
+    "Yaw *u*_{yaw}: turn right",
+];
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let vehicle = load_vehicle(context, NOMINAL_VEHICLE)?;
     let inverse = vehicle.control_matrix_inverse()?;
     let mut diagram = Diagram::new(720.0, 235.0);
-    let mut data = DataTable::new(["pseudo_input", "u_rear", "u_front", "u_left", "u_right", "thrust", "roll", "pitch", "yaw"]);
+    let mut data = DataTable::new([
+        "pseudo_input",
+        "u_rear",
+        "u_front",
+        "u_left",
+        "u_right",
+        "thrust",
+        "roll",
+        "pitch",
+        "yaw",
+    ]);
     let mut worst = 0.0_f64;
     for (k, name) in NAMES.iter().enumerate() {
         let commands: [f64; 4] = (inverse * Vector4::ith(k, 1.0)).into();
-        panel(&mut diagram, at(92.0 + 178.0 * k as f64, 105.0), &vehicle, &commands, name);
+        panel(
+            &mut diagram,
+            at(95.0 + 178.0 * k as f64, 110.0),
+            &vehicle,
+            &commands,
+            name,
+        );
         let effects = effects(&vehicle, &commands);
         for (axis, effect) in effects.iter().enumerate() {
             worst = worst.max((effect - if axis == k { 1.0 } else { 0.0 }).abs());
         }
         let [a, b, c, d] = commands;
         let [e, f, g, h] = effects;
-        data.push([["u_col", "u_lat", "u_long", "u_yaw"][k].into(), a.into(), b.into(), c.into(), d.into(), e.into(), f.into(), g.into(), h.into()]);
+        data.push([
+            ["u_col", "u_lat", "u_long", "u_yaw"][k].into(),
+            a.into(),
+            b.into(),
+            c.into(),
+            d.into(),
+            e.into(),
+            f.into(),
+            g.into(),
+            h.into(),
+        ]);
     }
     // Rounding of one 4 × 4 inverse.
     Ok(Drawing::picture(diagram.finish()).data(data).check(
@@ -58,7 +91,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 fn effects(vehicle: &Vehicle, commands: &[f64; 4]) -> [f64; 4] {
     let gains = &vehicle.linear_rotor;
     let arm = vehicle.airframe.arm_length;
-    let rotors = commands.map(|u| RotorOutput { thrust: gains.thrust_gain * u, torque: gains.torque_gain * u });
+    let rotors = commands.map(|u| RotorOutput {
+        thrust: gains.thrust_gain * u,
+        torque: gains.torque_gain * u,
+    });
     let wrench = RotorGeometry::<f64>::of(vehicle).wrench(&rotors);
     let roll_pitch = gains.thrust_gain * arm;
     [
@@ -74,14 +110,14 @@ fn panel(diagram: &mut Diagram, centre: Point, vehicle: &Vehicle, commands: &[f6
     let place = |i: usize| {
         let hub = vehicle.rotors[i].position / vehicle.airframe.arm_length;
         // Forward is up the page, right is right.
-        centre.offset(46.0 * hub.y, -46.0 * hub.x)
+        centre.offset(52.0 * hub.y, -52.0 * hub.x)
     };
     for i in 0..4 {
         diagram.line(&[centre, place(i)], Look::solid(GREY, 3.0));
     }
     for (i, command) in commands.iter().enumerate() {
         let share = command / largest;
-        let radius = 22.0 + 7.0 * share;
+        let radius = 19.0 + 6.0 * share;
         let (fill, sign) = match share {
             s if s > 1e-9 => (BLUE_TINT, "+"),
             s if s < -1e-9 => (ORANGE_TINT, "−"),
@@ -90,9 +126,22 @@ fn panel(diagram: &mut Diagram, centre: Point, vehicle: &Vehicle, commands: &[f6
         diagram.circle(place(i), radius, fill);
         diagram.centred(place(i), sign);
         // Clockwise seen from above is clockwise on this page.
-        let (from, to) = if vehicle.rotors[i].spin.sign() > 0.0 { (140.0, 40.0) } else { (40.0, 140.0) };
-        let colour = if share > 1e-9 { BLUE } else if share < -1e-9 { VERMILION } else { INK };
-        diagram.arrow(&Diagram::arc(place(i), (radius + 5.0, radius + 5.0), from, to), Look::solid(colour, 1.2));
+        let (from, to) = if vehicle.rotors[i].spin.sign() > 0.0 {
+            (140.0, 40.0)
+        } else {
+            (40.0, 140.0)
+        };
+        let colour = if share > 1e-9 {
+            BLUE
+        } else if share < -1e-9 {
+            VERMILION
+        } else {
+            INK
+        };
+        diagram.arrow(
+            &Diagram::arc(place(i), (radius + 5.0, radius + 5.0), from, to),
+            Look::solid(colour, 1.2),
+        );
     }
     diagram.centred(centre.offset(0.0, 108.0), name);
 }

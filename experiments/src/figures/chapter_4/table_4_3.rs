@@ -47,16 +47,40 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         format!("Published at {hover_rpm:.0} rpm (hover)"),
         format!("Published at {last:.0} rpm"),
     ]);
-    let mut data = DataTable::new(["coefficient", "identified", "half_width", "published_slowest", "published_hover", "published_fastest"]);
+    let mut data = DataTable::new([
+        "coefficient",
+        "identified",
+        "half_width",
+        "published_slowest",
+        "published_hover",
+        "published_fastest",
+    ]);
     let mut findings = Vec::new();
     let in_file = vehicle.require_propeller("table 4.3")?;
     let quantities: [(&str, &str, fn(&Row) -> f64, fn(&Row) -> f64, i32, f64); 2] = [
-        ("*C*_{T}", "C_T", Row::thrust, |r| r.thrust_coefficient, 4, in_file.thrust_coefficient),
-        ("*C*_{Q}", "C_Q", Row::torque, Row::torque_coefficient, 5, in_file.torque_coefficient),
+        (
+            "*C*_{T}",
+            "C_T",
+            Row::thrust,
+            |r| r.thrust_coefficient,
+            4,
+            in_file.thrust_coefficient,
+        ),
+        (
+            "*C*_{Q}",
+            "C_Q",
+            Row::torque,
+            Row::torque_coefficient,
+            5,
+            in_file.torque_coefficient,
+        ),
     ];
     for (name, plain, y, coefficient, power, file) in quantities {
         let fit = propeller::fit(&rows, y)?;
-        let (identified, half_width) = (fit.slope / propeller::scale(power), fit.half_width / propeller::scale(power));
+        let (identified, half_width) = (
+            fit.slope / propeller::scale(power),
+            fit.half_width / propeller::scale(power),
+        );
         let published = |rpm| propeller::at_speed(&rows, rpm, coefficient).unwrap_or(f64::NAN);
         shown.push([
             name.to_owned(),
@@ -65,13 +89,35 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             format!("{:.5}", published(hover_rpm)),
             format!("{:.5}", published(last)),
         ]);
-        data.push([plain.into(), identified.into(), half_width.into(), published(first).into(), published(hover_rpm).into(), published(last).into()]);
-        findings.push(((identified - published(hover_rpm)).abs() / half_width, identified / published(hover_rpm) - 1.0, (identified / file - 1.0).abs()));
+        data.push([
+            plain.into(),
+            identified.into(),
+            half_width.into(),
+            published(first).into(),
+            published(hover_rpm).into(),
+            published(last).into(),
+        ]);
+        findings.push((
+            (identified - published(hover_rpm)).abs() / half_width,
+            identified / published(hover_rpm) - 1.0,
+            (identified / file - 1.0).abs(),
+        ));
     }
-    let widths: Vec<String> = findings.iter().map(|f| format!("{:.1} half widths ({:+.1} %)", f.0, 100.0 * f.1)).collect();
+    let widths: Vec<String> = findings
+        .iter()
+        .map(|f| format!("{:.1} half widths ({:+.1} %)", f.0, 100.0 * f.1))
+        .collect();
     let file = findings.iter().map(|f| f.2).fold(0.0, f64::max);
     Ok(Drawing::table(shown)
         .data(data)
-        .check(AGREES, findings.iter().all(|f| f.0 <= 1.0), format!("C_T and C_Q differ by {}", widths.join(" and ")))
-        .check(VEHICLE, file < PRINTED, format!("largest relative difference {file:.1e}")))
+        .check(
+            AGREES,
+            findings.iter().all(|f| f.0 <= 1.0),
+            format!("C_T and C_Q differ by {}", widths.join(" and ")),
+        )
+        .check(
+            VEHICLE,
+            file < PRINTED,
+            format!("largest relative difference {file:.1e}"),
+        ))
 }

@@ -5,7 +5,8 @@ use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::diagram::{ARROW, BLUE_TINT, Block, Diagram, GREEN_TINT, ORANGE_TINT, PLAIN};
-use crate::plot::svg::at;
+use crate::plot::style::INK;
+use crate::plot::svg::{Anchor, TextLook, at};
 use quad_dynamics::{Feature, Level, Resolution};
 
 /// The figure.
@@ -25,6 +26,15 @@ const ORDERED: Claim = Claim::holds("each level contains what the level below it
 /// Height of one level on the page, px.
 const PITCH: f64 = 84.0;
 
+/// Words that begin where they are put.
+const LEFT: TextLook = TextLook {
+    size: 12.0,
+    anchor: Anchor::Start,
+    colour: INK,
+    rotation: 0.0,
+    bold: false,
+};
+
 fn draw(_: &Context) -> Result<Drawing, ItemError> {
     let family = Level::ALL.map(|level| Resolution::of(level, &level.phenomena()));
     let mut diagram = Diagram::new(560.0, 5.0 * PITCH + 6.0);
@@ -34,17 +44,31 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
         let fill = match (r.is_linear(), r.is_empirical()) {
             (true, _) => PLAIN,
             (false, false) => BLUE_TINT,
-            (false, true) => if n == 4 { GREEN_TINT } else { ORANGE_TINT },
+            (false, true) => {
+                if n == 4 {
+                    GREEN_TINT
+                } else {
+                    ORANGE_TINT
+                }
+            }
         };
-        let words = format!("Level {n}\n{}, {} states", if r.is_linear() { "linear" } else { "non-linear" }, r.states);
-        let block = Block { centre: at(130.0, PITCH * (5.5 - f64::from(n))), size: (180.0, 48.0), fill };
+        let words = format!(
+            "Level {n}\n{}, {} states",
+            if r.is_linear() { "linear" } else { "non-linear" },
+            r.states
+        );
+        let block = Block {
+            centre: at(130.0, PITCH * (5.5 - f64::from(n))),
+            size: (180.0, 48.0),
+            fill,
+        };
         diagram.block(block, &words)
     });
     for (i, pair) in family.windows(2).enumerate() {
         diagram.arrow(&[blocks[i].top(), blocks[i + 1].bottom()], ARROW);
         let added = pair[1].beyond(&pair[0]).iter().map(written).collect::<Vec<_>>();
         let middle = 0.5 * (blocks[i].top().y + blocks[i + 1].bottom().y);
-        diagram.text(at(148.0, middle + 4.0), &format!("+ {}", added.join(", ")));
+        diagram.styled_text(at(146.0, middle + 4.0), &format!("+ {}", added.join(", ")), LEFT);
     }
     for r in &family {
         let features: Vec<String> = r.features.iter().map(ToString::to_string).collect();

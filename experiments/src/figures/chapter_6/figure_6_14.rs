@@ -15,7 +15,7 @@ pub(super) const ITEM: Item = Item {
     id: "6.14",
     title: "Height during a step in horizontal position",
     description: "The flights of figure 6.13, seen from the side: height under controller c1 while the vehicle \
-                  pitches to move one metre in *x*. Below, the first three seconds enlarged.",
+                  pitches to move one metre in *x*. Below, levels 1 to 4 enlarged.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[LEVEL_1_KEEPS, OTHERS_LOSE, LEVEL_5_OFFSET],
@@ -73,28 +73,52 @@ fn predicted_offset(context: &Context, scenario: &Scenario) -> Result<f64, ItemE
     let (mut low, mut high) = (0.0, 2.0 * weight_share);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if thrust(middle) < weight_share { low = middle } else { high = middle }
+        if thrust(middle) < weight_share {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     // Demand above weight means that the vehicle hangs below its set point.
     Ok(-4.0 * (low - weight_share) / (vehicle.airframe.mass * omega * omega))
 }
 
 fn picture(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> crate::plot::svg::Svg {
-    let panel = |until: f64| {
-        outcomes.iter().zip(heights).fold(Panel::new("Time *t*, s", Quantity::Height.label()), |panel, (o, h)| {
-            let number = o.level.number();
-            let shown = h.iter().copied().filter(move |(t, _)| *t <= until);
-            panel.line(level_name(number), level_style(number), shown)
-        })
+    let panel = |levels: usize| {
+        let empty = Panel::new("Time *t*, s", Quantity::Height.label());
+        outcomes
+            .iter()
+            .zip(heights)
+            .take(levels)
+            .fold(empty, |panel, (o, h)| {
+                let number = o.level.number();
+                panel.line(level_name(number), level_style(number), h.iter().copied())
+            })
     };
-    Figure::columns(1).panel(panel(f64::INFINITY)).panel(panel(3.0)).panel_size(440.0, 180.0).draw()
+    Figure::columns(1)
+        .panel(panel(5))
+        .panel(panel(4))
+        .share_x()
+        .panel_size(440.0, 180.0)
+        .draw()
 }
 
 fn data(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> DataTable {
-    let names: Vec<String> = outcomes.iter().map(|o| format!("height_m_level_{}", o.level.number())).collect();
+    let names: Vec<String> = outcomes
+        .iter()
+        .map(|o| format!("height_m_level_{}", o.level.number()))
+        .collect();
     let times: Vec<f64> = heights[0].iter().map(|(t, _)| *t).collect();
-    let columns: Vec<Vec<f64>> = heights.iter().map(|h| h.iter().map(|(_, y)| *y).collect()).collect();
+    let columns: Vec<Vec<f64>> = heights
+        .iter()
+        .map(|h| h.iter().map(|(_, y)| *y).collect())
+        .collect();
     let mut all: Vec<(&str, &[f64])> = vec![("t_s", &times)];
-    all.extend(names.iter().zip(&columns).map(|(n, c)| (n.as_str(), c.as_slice())));
+    all.extend(
+        names
+            .iter()
+            .zip(&columns)
+            .map(|(n, c)| (n.as_str(), c.as_slice())),
+    );
     DataTable::from_columns(&all)
 }

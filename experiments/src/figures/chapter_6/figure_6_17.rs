@@ -38,17 +38,34 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
     let times: Vec<f64> = (0..=480).map(|k| f64::from(k) * 0.025).collect();
     let points: Vec<_> = times.iter().map(|&t| trajectory.flat_output(t)).collect();
     let column = |f: fn(&quad_ndi::FlatOutput<f64>) -> f64| points.iter().map(f).collect::<Vec<f64>>();
-    let columns = [column(|p| p.position.x), column(|p| p.position.y), column(|p| p.position.z), column(|p| p.yaw)];
+    let columns = [
+        column(|p| p.position.x),
+        column(|p| p.position.y),
+        column(|p| p.position.z),
+        column(|p| p.yaw),
+    ];
     let acceleration = column(|p| p.acceleration.norm());
-    let dots = trajectory.waypoints().iter().map(|w| [w.position_m[0], w.position_m[1], -w.position_m[2]]);
+    let dots = trajectory
+        .waypoints()
+        .iter()
+        .map(|w| [w.position_m[0], w.position_m[1], -w.position_m[2]]);
     let space = Space::new("North *x*, m", "East *y*, m", "Height −*z*, m")
-        .line("reference", reference_style().dashed(""), points.iter().map(|p| [p.position.x, p.position.y, -p.position.z]))
+        .view(paths::VIEW)
+        .line(
+            "reference",
+            reference_style().dashed(""),
+            points.iter().map(|p| [p.position.x, p.position.y, -p.position.z]),
+        )
         .markers("waypoints", series_style(1), dots);
     let over_time = |values: &[f64]| times.iter().copied().zip(values.to_vec()).collect::<Vec<_>>();
-    let panel = Panel::new("Time *t*, s", "Heading *ψ*, rad; acceleration |*r̈*|, m s^{−2}")
-        .line("heading *ψ*", series_style(0), over_time(&columns[3]))
-        .line("acceleration |*r̈*|", series_style(1), over_time(&acceleration));
-    let figure = Figure::columns(1).panel(space).panel(panel).panel_size(470.0, 300.0);
+    let panel = |label: &str, values: &[f64]| {
+        Panel::new("Time *t*, s", label).line("", reference_style().dashed(""), over_time(values))
+    };
+    let figure = Figure::columns(1)
+        .panel(space)
+        .panel(panel("Heading *ψ*, rad", &columns[3]))
+        .panel(panel("Acceleration |*r̈*|, m s^{−2}", &acceleration))
+        .panel_size(470.0, 230.0);
     let jump = largest_jump(&trajectory);
     Ok(Drawing::picture(figure.draw())
         .data(DataTable::from_columns(&[
@@ -60,13 +77,20 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
             ("acceleration_m_s2", &acceleration),
         ]))
         .scenario(&paths::scenario(Law::C3))?
-        .check(SMOOTH, jump < JUMP, format!("largest jump of any of these derivatives at a waypoint: {jump:.1e}")))
+        .check(
+            SMOOTH,
+            jump < JUMP,
+            format!("largest jump of any of these derivatives at a waypoint: {jump:.1e}"),
+        ))
 }
 
 /// Largest change of position to snap and heading to jerk across the waypoints, ends included.
 fn largest_jump(trajectory: &Trajectory) -> f64 {
     let across = |t: f64| {
-        let (a, b) = (trajectory.flat_output(t - NEAR_S), trajectory.flat_output(t + NEAR_S));
+        let (a, b) = (
+            trajectory.flat_output(t - NEAR_S),
+            trajectory.flat_output(t + NEAR_S),
+        );
         [
             (a.position - b.position).norm(),
             (a.velocity - b.velocity).norm(),
@@ -79,5 +103,9 @@ fn largest_jump(trajectory: &Trajectory) -> f64 {
             (a.yaw_jerk - b.yaw_jerk).abs(),
         ]
     };
-    trajectory.waypoints().iter().flat_map(|w| across(w.time_s)).fold(0.0, f64::max)
+    trajectory
+        .waypoints()
+        .iter()
+        .flat_map(|w| across(w.time_s))
+        .fold(0.0, f64::max)
 }

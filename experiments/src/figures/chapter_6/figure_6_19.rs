@@ -20,7 +20,9 @@ pub(super) const ITEM: Item = Item {
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let paths = paths::fly_levels(context, Law::C2, &Level::ALL[1..])?;
-    let drawing = Drawing::picture(paths::picture(&paths)).data(paths::table(&paths)).scenario(&paths::scenario(Law::C2))?;
+    let drawing = Drawing::picture(paths::picture(&paths))
+        .data(paths::table(&paths))
+        .scenario(&paths::scenario(Law::C2))?;
     let drawing = paths::remarks(&paths).into_iter().fold(drawing, Drawing::note);
     Ok(drawing)
 }

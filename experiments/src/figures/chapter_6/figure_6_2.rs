@@ -30,20 +30,35 @@ const LARGEST_ERROR: f64 = 0.02 * steps::STEP;
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let on = |law| Scenario::height_step(law, settings::height(2.0), 5.0);
-    let pairs = [(Law::C1, Level::One), (Law::C2, Level::Two), (Law::C3, Level::Three)];
+    let pairs = [
+        (Law::C1, Level::One),
+        (Law::C2, Level::Two),
+        (Law::C3, Level::Three),
+    ];
     let mut heights = Vec::new();
     for (law, level) in pairs {
         let outcomes = steps::fly(context, &on(law), Quantity::Height, &[level])?;
         heights.push(outcomes[0].response(Quantity::Height));
     }
     let times: Vec<f64> = heights[0].iter().map(|(t, _)| *t).collect();
-    let columns: Vec<Vec<f64>> = heights.iter().map(|h| h.iter().map(|(_, y)| *y).collect()).collect();
+    let columns: Vec<Vec<f64>> = heights
+        .iter()
+        .map(|h| h.iter().map(|(_, y)| *y).collect())
+        .collect();
     // Heights are −z, so e_z = z_1 − z_3 = h_3 − h_1.
-    let error: Vec<f64> = columns[2].iter().zip(&columns[0]).map(|(h3, h1)| h3 - h1).collect();
+    let error: Vec<f64> = columns[2]
+        .iter()
+        .zip(&columns[0])
+        .map(|(h3, h1)| h3 - h1)
+        .collect();
     let mut above = Panel::new("Time *t*, s", Quantity::Height.label()).horizontal(steps::STEP, "");
     for (i, (_, level)) in pairs.iter().enumerate() {
         let number = level.number();
-        above = above.line(level_name(number), level_style(number), heights[i].iter().copied());
+        above = above.line(
+            level_name(number),
+            level_style(number),
+            heights[i].iter().copied(),
+        );
     }
     let below = Panel::new("Time *t*, s", "Error *e*_{z}, m").line(
         "",
@@ -51,7 +66,11 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         times.iter().copied().zip(error.iter().copied()),
     );
     let largest = error.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
-    let figure = Figure::columns(1).panel(above).panel(below).share_x().panel_size(440.0, 180.0);
+    let figure = Figure::columns(1)
+        .panel(above)
+        .panel(below)
+        .share_x()
+        .panel_size(440.0, 180.0);
     Ok(Drawing::picture(figure.draw())
         .data(DataTable::from_columns(&[
             ("t_s", &times),
@@ -61,6 +80,12 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             ("error_m", &error),
         ]))
         .scenario(&on(Law::C3))?
-        .check(SMALL, largest < LARGEST_ERROR, format!("largest |e_z| = {largest:.4} m"))
-        .note("the scenario file names controller c3; levels 1 and 2 are flown with c1 and c2, all else alike"))
+        .check(
+            SMALL,
+            largest < LARGEST_ERROR,
+            format!("largest |e_z| = {largest:.4} m"),
+        )
+        .note(
+            "the scenario file names controller c3; levels 1 and 2 are flown with c1 and c2, all else alike",
+        ))
 }

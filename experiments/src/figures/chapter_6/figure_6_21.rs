@@ -9,8 +9,8 @@ use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 pub(super) const ITEM: Item = Item {
     id: "6.21",
     title: "NDI against PID: step in height",
-    description: "A step of one metre in height on level 5 with limits, under controller c3 and under cascaded PID tuned on \
-                  level 3 for the same settling time. Above the response, below the collective pseudo-input.",
+    description: "A step of one metre in height on level 5 with limits, under controller c3 and under cascaded PID tuned there \
+                  for the same settling time. Above the response, below the collective pseudo-input.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],
@@ -24,6 +24,10 @@ const SET_POINT: Shown = ("set point", |r| -r.reference.flat.position.z);
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let pair = comparison::fly_step(context, Scenario::height_step)?;
     let picture = comparison::picture(&pair, 1, &[RESPONSE, INPUT], &[Some(SET_POINT)]);
-    let drawing = Drawing::picture(picture).data(comparison::table(&pair)).scenario(&pair.scenario)?;
-    Ok(comparison::remarks(&pair, RESPONSE.1).into_iter().fold(drawing, Drawing::note))
+    let drawing = Drawing::picture(picture)
+        .data(comparison::table(&pair))
+        .scenario(&pair.scenario)?;
+    Ok(comparison::remarks(&pair, RESPONSE.1)
+        .into_iter()
+        .fold(drawing, Drawing::note))
 }

@@ -10,7 +10,7 @@ pub(super) const ITEM: Item = Item {
     id: "6.24",
     title: "NDI against PID: following a trajectory",
     description: "The reference of figure 6.17 on level 5 with limits, under controller c3 with its feed-forward and \
-                  under cascaded PID, which sees the set point alone. Below, the distance from the reference.",
+                  under cascaded PID, which gets position, heading and their first derivatives. Below, the distance from the reference.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],
@@ -27,6 +27,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     };
     let scenario = pair.scenario;
     let paths = pair.flights.map(path);
-    let drawing = Drawing::picture(paths::picture(&paths)).data(paths::table(&paths)).scenario(&scenario)?;
+    let drawing = Drawing::picture(paths::picture(&paths))
+        .data(paths::table(&paths))
+        .scenario(&scenario)?;
     Ok(paths::remarks(&paths).into_iter().fold(drawing, Drawing::note))
 }

@@ -48,7 +48,9 @@ fn unwrapped_yaw(r: &quad_ndi::Record) -> f64 {
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let pair = comparison::fly_trajectory(context)?;
-    Ok(Drawing::picture(comparison::picture(&pair, 2, &SHOWN, &REFERENCE))
-        .data(comparison::table(&pair))
-        .scenario(&pair.scenario)?)
+    Ok(
+        Drawing::picture(comparison::picture(&pair, 2, &SHOWN, &REFERENCE))
+            .data(comparison::table(&pair))
+            .scenario(&pair.scenario)?,
+    )
 }

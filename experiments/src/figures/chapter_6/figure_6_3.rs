@@ -32,10 +32,26 @@ const SMALL: Claim = Claim::holds("e_x stays small: below 10 % of the step");
 const LARGEST_ERROR: f64 = 0.1 * steps::STEP;
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let position = LoopSettings { settling_time_s: 2.0, ..LoopSettings::default() };
-    let on = |law| Scenario::position_step(law, Settings { position, ..settings::flight() }, 5.0);
+    let position = LoopSettings {
+        settling_time_s: 2.0,
+        ..LoopSettings::default()
+    };
+    let on = |law| {
+        Scenario::position_step(
+            law,
+            Settings {
+                position,
+                ..settings::flight()
+            },
+            5.0,
+        )
+    };
     let omega = on(Law::C1).settings.gains::<f64>()?.position.natural_frequency;
-    let pairs = [(Law::C1, Level::One), (Law::C2, Level::Two), (Law::C3, Level::Three)];
+    let pairs = [
+        (Law::C1, Level::One),
+        (Law::C2, Level::Two),
+        (Law::C3, Level::Three),
+    ];
     let mut above = Panel::new("Time *t*, s", Quantity::X.label()).horizontal(steps::STEP, "");
     let mut below = Panel::new("Time *t*, s", "Error *e*_{x}, m");
     let (mut names, mut columns, mut largest) = (vec!["t_s".to_owned()], Vec::new(), Vec::new());
@@ -43,7 +59,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         let number = level.number();
         let outcomes = steps::fly(context, &on(law), Quantity::X, &[level])?;
         let response = outcomes[0].response(Quantity::X);
-        let error: Vec<(f64, f64)> = response.iter().map(|&(t, x)| (t, steps::design(omega, t) - x)).collect();
+        let error: Vec<(f64, f64)> = response
+            .iter()
+            .map(|&(t, x)| (t, steps::design(omega, t) - x))
+            .collect();
         if columns.is_empty() {
             let design = response.iter().map(|&(t, _)| (t, steps::design(omega, t)));
             above = above.line("design", reference_style(), design);
@@ -56,9 +75,16 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         above = above.line(level_name(number), level_style(number), response);
         below = below.line(level_name(number), level_style(number), error);
     }
-    let table: Vec<(&str, &[f64])> =
-        names.iter().zip(&columns).map(|(name, column)| (name.as_str(), column.as_slice())).collect();
-    let figure = Figure::columns(1).panel(above).panel(below).share_x().panel_size(440.0, 180.0);
+    let table: Vec<(&str, &[f64])> = names
+        .iter()
+        .zip(&columns)
+        .map(|(name, column)| (name.as_str(), column.as_slice()))
+        .collect();
+    let figure = Figure::columns(1)
+        .panel(above)
+        .panel(below)
+        .share_x()
+        .panel_size(440.0, 180.0);
     Ok(Drawing::picture(figure.draw())
         .data(DataTable::from_columns(&table))
         .scenario(&on(Law::C3))?
@@ -67,5 +93,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             largest.iter().all(|e| *e < LARGEST_ERROR),
             format!("largest |e_x| on levels 1 to 3: {largest:.4?} m"),
         )
-        .note("the scenario file names controller c3; levels 1 and 2 are flown with c1 and c2, all else alike"))
+        .note(
+            "the scenario file names controller c3; levels 1 and 2 are flown with c1 and c2, all else alike",
+        ))
 }

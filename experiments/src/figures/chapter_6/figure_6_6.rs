@@ -33,13 +33,18 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         ..Scenario::height_step(Law::C1, settings::height(0.2), 2.0)
     };
     let outcomes = steps::fly(context, &scenario, Quantity::Height, &Level::ALL)?;
-    let mut panel = Panel::new(Quantity::Height.label(), "Climb rate *ḣ* = −*ż*, m s^{−1}").vertical(steps::STEP, "");
+    let mut panel =
+        Panel::new(Quantity::Height.label(), "Climb rate *ḣ* = −*ż*, m s^{−1}").vertical(steps::STEP, "");
     let mut data = DataTable::new(["level", "t_s", "height_m", "climb_rate_m_s"]);
     for o in &outcomes {
         let number = o.level.number();
         let rate = series(&o.log, |r| -r.flight.velocity.z);
-        let points: Vec<(f64, f64)> =
-            o.response(Quantity::Height).iter().zip(&rate).map(|((_, h), (_, v))| (*h, *v)).collect();
+        let points: Vec<(f64, f64)> = o
+            .response(Quantity::Height)
+            .iter()
+            .zip(&rate)
+            .map(|((_, h), (_, v))| (*h, *v))
+            .collect();
         panel = panel.line(level_name(number), level_style(number), points.iter().copied());
         for ((t, _), (h, v)) in rate.iter().zip(&points).step_by(4) {
             data.push([f64::from(number).into(), (*t).into(), (*h).into(), (*v).into()]);

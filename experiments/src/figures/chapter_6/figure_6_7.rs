@@ -19,7 +19,8 @@ pub(super) const ITEM: Item = Item {
     make: Make::Draw(draw),
 };
 
-const DESIGN: Claim = Claim::holds("on its own level the controller gives the designed second-order response");
+const DESIGN: Claim =
+    Claim::holds("on its own level the controller gives the designed second-order response");
 
 /// Commands are held for 1 ms, which delays a response of 5.8 rad/s by half a millisecond.
 const HELD: f64 = 5e-3;
@@ -30,5 +31,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let natural_frequency = scenario.settings.gains::<f64>()?.height.natural_frequency;
     let off = steps::distance_from_design(&outcomes[0].response(Quantity::Height), natural_frequency);
     let drawing = steps::drawing(&scenario, Quantity::Height, &outcomes)?;
-    Ok(drawing.check(DESIGN, off < HELD, format!("largest distance from the design {:.2} mm", 1e3 * off)))
+    Ok(drawing.check(
+        DESIGN,
+        off < HELD,
+        format!("largest distance from the design {:.2} mm", 1e3 * off),
+    ))
 }

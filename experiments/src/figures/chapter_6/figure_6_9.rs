@@ -22,10 +22,17 @@ pub(super) const ITEM: Item = Item {
 const INSIDE: Claim = Claim::holds("inputs stay inside the limits");
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let scenario = Scenario { input_limits: true, ..Scenario::height_step(Law::C3, settings::height(settings::HEIGHT_SETTLING_S), 5.0) };
+    let scenario = Scenario {
+        input_limits: true,
+        ..Scenario::height_step(Law::C3, settings::height(settings::HEIGHT_SETTLING_S), 5.0)
+    };
     let outcomes = steps::fly(context, &scenario, Quantity::Height, &Level::ALL[2..])?;
     let range = scenario.vehicle(context)?.zeroed_range();
     let excess = steps::largest_excess(&outcomes, &range);
     let drawing = steps::drawing(&scenario, Quantity::Height, &outcomes)?;
-    Ok(drawing.check(INSIDE, excess <= 0.0, format!("largest command beyond a limit {excess:.1e}")))
+    Ok(drawing.check(
+        INSIDE,
+        excess <= 0.0,
+        format!("largest command beyond a limit {excess:.1e}"),
+    ))
 }

@@ -4,6 +4,7 @@ use super::settings;
 use crate::data::DataTable;
 use crate::flight::{Law, Scenario, Task, completed};
 use crate::item::{Context, ItemError};
+use crate::plot::space::View;
 use crate::plot::svg::Svg;
 use crate::plot::{Figure, Look, Panel, Space, reference_style};
 use quad_dynamics::{Level, Vehicle};
@@ -27,13 +28,24 @@ pub(super) fn waypoints() -> Vec<Waypoint> {
     ]
 }
 
+/// From where the loop is seen open.
+pub(super) const VIEW: View = View {
+    azimuth_deg: -62.0,
+    elevation_deg: 40.0,
+};
+
 /// Time flown, s: the trajectory and two seconds to settle.
 const DURATION_S: f64 = 14.0;
 
 /// The scenario of a controller that follows the reference.
 pub(super) fn scenario(law: Law) -> Scenario {
-    let task = Task::Follow { waypoints: waypoints() };
-    Scenario { record_every: 10, ..Scenario::new(law, settings::flight(), task, DURATION_S) }
+    let task = Task::Follow {
+        waypoints: waypoints(),
+    };
+    Scenario {
+        record_every: 10,
+        ..Scenario::new(law, settings::flight(), task, DURATION_S)
+    }
 }
 
 /// A flight along the reference.
@@ -59,7 +71,12 @@ impl Path {
         look: Look,
     ) -> Result<Self, ItemError> {
         let column = name.replace([' ', ','], "_").to_lowercase();
-        Ok(Self { name, column, look, log: scenario.fly_vehicle(vehicle, level)? })
+        Ok(Self {
+            name,
+            column,
+            look,
+            log: scenario.fly_vehicle(vehicle, level)?,
+        })
     }
 
     /// Distance from the reference over time, `(t, m)`.
@@ -70,7 +87,22 @@ impl Path {
 
     /// Root mean square of the distance from the reference, m; infinite for a flight that diverged.
     pub(super) fn rms_error(&self) -> f64 {
-        if completed(&self.log) { quad_ndi::metrics::rms(&self.errors(), |_| 0.0) } else { f64::INFINITY }
+        if completed(&self.log) {
+            quad_ndi::metrics::rms(&self.errors(), |_| 0.0)
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// The horizontal part of [`Path::rms_error`], m.
+    pub(super) fn rms_along_ground(&self) -> f64 {
+        let distance = |r: &quad_ndi::Record| (r.reference.flat.position - r.flight.position).xy().norm();
+        let points: Vec<_> = self.log.records.iter().map(|r| (r.time_s, distance(r))).collect();
+        if completed(&self.log) {
+            quad_ndi::metrics::rms(&points, |_| 0.0)
+        } else {
+            f64::INFINITY
+        }
     }
 }
 
@@ -92,19 +124,31 @@ pub(super) fn picture(paths: &[Path]) -> Svg {
     for path in paths {
         errors = errors.line(path.name.clone(), path.look, path.errors());
     }
-    Figure::columns(1).panel(space(paths)).panel(errors).panel_size(470.0, 300.0).draw()
+    Figure::columns(1)
+        .panel(space(paths))
+        .panel(errors)
+        .panel_size(470.0, 300.0)
+        .draw()
 }
 
 /// Trajectories in space, the reference among them.
 pub(super) fn space(paths: &[Path]) -> Space {
-    let mut space = Space::new("North *x*, m", "East *y*, m", "Height −*z*, m");
+    let mut space = Space::new("North *x*, m", "East *y*, m", "Height −*z*, m").view(VIEW);
     let point = |p: nalgebra::Vector3<f64>| [p.x, p.y, -p.z];
     if let Some(first) = paths.first() {
-        let reference = first.log.records.iter().map(move |r| point(r.reference.flat.position));
+        let reference = first
+            .log
+            .records
+            .iter()
+            .map(move |r| point(r.reference.flat.position));
         space = space.line("reference", reference_style(), reference);
     }
     for path in paths {
-        space = space.line(path.name.clone(), path.look, path.log.records.iter().map(move |r| point(r.flight.position)));
+        space = space.line(
+            path.name.clone(),
+            path.look,
+            path.log.records.iter().map(move |r| point(r.flight.position)),
+        );
     }
     space
 }
@@ -133,7 +177,11 @@ pub(super) fn table(paths: &[Path]) -> DataTable {
 pub(super) fn remarks(paths: &[Path]) -> Vec<String> {
     let remark = |p: &Path| {
         let largest = p.errors().iter().map(|(_, e)| *e).fold(0.0, f64::max);
-        format!("{}: RMS distance {:.4} m, largest {largest:.4} m", p.name, p.rms_error())
+        format!(
+            "{}: RMS distance {:.4} m, largest {largest:.4} m",
+            p.name,
+            p.rms_error()
+        )
     };
     paths.iter().map(remark).collect()
 }

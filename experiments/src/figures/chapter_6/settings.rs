@@ -23,17 +23,29 @@ pub(super) const FREQUENCY_RATIO: f64 = 10.0;
 
 /// Settings for steps in height with this settling time, s.
 pub(super) fn height(settling_time_s: f64) -> Settings {
-    let height = LoopSettings { settling_time_s, damping: 1.0, pole_ratio: HEIGHT_POLE_RATIO };
+    let height = LoopSettings {
+        settling_time_s,
+        damping: 1.0,
+        pole_ratio: HEIGHT_POLE_RATIO,
+    };
     Settings { height, ..flight() }
 }
 
 /// Settings for steps in yaw, horizontal steps and trajectories.
 pub(super) fn flight() -> Settings {
-    let with = |settling_time_s| LoopSettings { settling_time_s, damping: 1.0, pole_ratio: HEIGHT_POLE_RATIO };
+    let with = |settling_time_s| LoopSettings {
+        settling_time_s,
+        damping: 1.0,
+        pole_ratio: HEIGHT_POLE_RATIO,
+    };
     Settings {
         height: with(2.0),
         yaw: with(YAW_SETTLING_S),
         position: with(POSITION_SETTLING_S),
-        attitude: AttitudeSettings { frequency_ratio: FREQUENCY_RATIO, damping: 1.0, pole_ratio: 5.0 },
+        attitude: AttitudeSettings {
+            frequency_ratio: FREQUENCY_RATIO,
+            damping: 1.0,
+            pole_ratio: 5.0,
+        },
     }
 }

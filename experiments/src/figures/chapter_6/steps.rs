@@ -107,9 +107,16 @@ pub(super) fn fly(
             0.0,
         )?;
         let response = series(&log, |r| quantity.of(r));
-        let metrics = completed(&log).then(|| StepMetrics::of(&response, STEP)).flatten();
+        let metrics = completed(&log)
+            .then(|| StepMetrics::of(&response, STEP))
+            .flatten();
         let effort = Effort::of(&log.records, &at_rest.hover_input().commands, limits.as_ref());
-        Ok(Outcome { level, metrics, effort, log })
+        Ok(Outcome {
+            level,
+            metrics,
+            effort,
+            log,
+        })
     };
     levels.iter().map(outcome).collect()
 }
@@ -120,8 +127,9 @@ pub(super) fn drawing(
     quantity: Quantity,
     outcomes: &[Outcome],
 ) -> Result<Drawing, ItemError> {
-    let drawing =
-        Drawing::picture(picture(quantity, outcomes)).data(table(quantity, outcomes)).scenario(scenario)?;
+    let drawing = Drawing::picture(picture(quantity, outcomes))
+        .data(table(quantity, outcomes))
+        .scenario(scenario)?;
     Ok(outcomes.iter().fold(drawing, |d, o| d.note(remark(quantity, o))))
 }
 
@@ -145,7 +153,41 @@ fn picture(quantity: Quantity, outcomes: &[Outcome]) -> Svg {
     if extreme.0 < CLIP.0 || extreme.1 > CLIP.1 {
         above = above.y_range(extreme.0.max(CLIP.0), extreme.1.min(CLIP.1));
     }
-    Figure::columns(1).panel(above).panel(below).share_x().panel_size(440.0, 190.0).draw()
+    let mut figure = Figure::columns(1).panel(above).share_x().panel_size(440.0, 180.0);
+    if quantity == Quantity::X {
+        let pitch = outcomes
+            .iter()
+            .fold(Panel::new("Time *t*, s", "Pitch *θ*, rad"), |panel, o| {
+                let (name, look) = (level_name(o.level.number()), level_style(o.level.number()));
+                panel.line(name, look, series(&o.log, |r| r.flight.attitude.pitch))
+            });
+        figure = figure.panel(pitch);
+    }
+    if let Some((low, high)) = range_without_spike(outcomes, input) {
+        below = below.y_range(low, high);
+    }
+    figure.panel(below).draw()
+}
+
+/// Time after which an input counts as past its first spike, s.
+const SPIKE_S: f64 = 0.1;
+
+/// Range of a pseudo-input after its first spike, with a margin, where the spike would hide the rest.
+fn range_without_spike(outcomes: &[Outcome], input: usize) -> Option<(f64, f64)> {
+    let extremes = |from: f64| {
+        let records = outcomes
+            .iter()
+            .flat_map(|o| &o.log.records)
+            .filter(move |r| r.time_s >= from);
+        records
+            .map(|r| r.pseudo_inputs[input])
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), u| {
+                (low.min(u), high.max(u))
+            })
+    };
+    let ((low, high), (later_low, later_high)) = (extremes(0.0), extremes(SPIKE_S));
+    let span = later_high - later_low;
+    (high - low > 3.0 * span).then_some((later_low - 0.5 * span, later_high + 0.5 * span))
 }
 
 /// Columns: time, then quantity and pseudo-input of each level.
@@ -153,8 +195,11 @@ fn table(quantity: Quantity, outcomes: &[Outcome]) -> DataTable {
     let (_, input_column, input) = quantity.pseudo_input();
     let longest = outcomes.iter().max_by_key(|o| o.log.records.len());
     let mut names = vec!["t_s".to_owned()];
-    let mut columns: Vec<Vec<f64>> =
-        vec![longest.map(|o| o.log.records.iter().map(|r| r.time_s).collect()).unwrap_or_default()];
+    let mut columns: Vec<Vec<f64>> = vec![
+        longest
+            .map(|o| o.log.records.iter().map(|r| r.time_s).collect())
+            .unwrap_or_default(),
+    ];
     for o in outcomes {
         let level = o.level.number();
         names.push(format!("{}_level_{level}", quantity.column()));
@@ -167,8 +212,11 @@ fn table(quantity: Quantity, outcomes: &[Outcome]) -> DataTable {
     for column in &mut columns {
         column.resize(rows, f64::NAN);
     }
-    let borrowed: Vec<(&str, &[f64])> =
-        names.iter().zip(&columns).map(|(name, column)| (name.as_str(), column.as_slice())).collect();
+    let borrowed: Vec<(&str, &[f64])> = names
+        .iter()
+        .zip(&columns)
+        .map(|(name, column)| (name.as_str(), column.as_slice()))
+        .collect();
     DataTable::from_columns(&borrowed)
 }
 
@@ -178,17 +226,28 @@ fn remark(quantity: Quantity, outcome: &Outcome) -> String {
     if let FlightStatus::Diverged { time_s, .. } = outcome.log.status {
         return format!("{name}: diverged, no finite state from {time_s:.3} s on");
     }
-    let Some(m) = outcome.metrics else { return format!("{name}: no step") };
-    let settled =
-        m.settling_time_s.map_or("does not settle to 2 %".to_owned(), |t| format!("settles in {t:.2} s"));
+    let Some(m) = outcome.metrics else {
+        return format!("{name}: no step");
+    };
+    let settled = m
+        .settling_time_s
+        .map_or("does not settle to 2 %".to_owned(), |t| {
+            format!("settles in {t:.2} s")
+        });
     format!(
         "{name}: {settled}, overshoot {:.1} %, steady-state error {:.4} {unit}, RMS error {:.3} {unit}, RMS command {:.4}, \
-         saturated {:.2} s",
+         saturated {:.2} s, largest pseudo-input {:.3}",
         100.0 * m.overshoot,
         m.steady_state_error,
         m.rms_error,
         outcome.effort.rms_command,
         outcome.effort.saturation_time_s,
+        outcome
+            .log
+            .records
+            .iter()
+            .map(|r| r.pseudo_inputs[quantity.pseudo_input().2].abs())
+            .fold(0.0, f64::max),
         unit = quantity.unit(),
     )
 }
@@ -198,7 +257,10 @@ pub(super) fn distance(a: &[(f64, f64)], b: &[(f64, f64)]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }
-    a.iter().zip(b).map(|(p, q)| (p.1 - q.1).abs()).fold(0.0, f64::max)
+    a.iter()
+        .zip(b)
+        .map(|(p, q)| (p.1 - q.1).abs())
+        .fold(0.0, f64::max)
 }
 
 /// The critically damped second-order step, `1 − (1 + ω t) e^(−ω t)`.
@@ -208,12 +270,18 @@ pub(super) fn design(natural_frequency: f64, t: f64) -> f64 {
 
 /// Largest distance of a response from its design.
 pub(super) fn distance_from_design(response: &[(f64, f64)], natural_frequency: f64) -> f64 {
-    response.iter().map(|&(t, y)| (y - design(natural_frequency, t)).abs()).fold(0.0, f64::max)
+    response
+        .iter()
+        .map(|&(t, y)| (y - design(natural_frequency, t)).abs())
+        .fold(0.0, f64::max)
 }
 
 /// Time at which a response first reaches 90 % of the step, s; infinite if it never does.
 pub(super) fn rise_time_s(response: &[(f64, f64)]) -> f64 {
-    response.iter().find(|(_, y)| *y >= 0.9 * STEP).map_or(f64::INFINITY, |(t, _)| *t)
+    response
+        .iter()
+        .find(|(_, y)| *y >= 0.9 * STEP)
+        .map_or(f64::INFINITY, |(t, _)| *t)
 }
 
 /// By how much the commands of all flights exceed a range at most; negative inside it.

@@ -4,6 +4,7 @@ use super::{LoopTarget, TunedLoop, TuningError, TuningOptions};
 use crate::Reference;
 use crate::controller::{Controller, Demand};
 use crate::pid::{Pid, PidMemory, PidSettings};
+use crate::settling::SETTLING_BAND;
 use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, Input, Phenomenon, Vehicle};
 use quad_math::FixedStep;
@@ -16,17 +17,18 @@ pub(super) const FLIGHT: f64 = 4.0;
 const LOAD: f64 = 0.1;
 
 /// Weight of the error under load against that of the step: it is the smaller by its nature.
-const LOAD_WEIGHT: f64 = 5.0;
+const LOAD_WEIGHT: f64 = 2.0;
 
 /// Weight of the total variation of the commands.
 const ACTIVITY_WEIGHT: f64 = 0.005;
 
-/// Overshoot that costs nothing, and the price of the rest.
-const FREE_OVERSHOOT: f64 = 0.05;
-const OVERSHOOT_WEIGHT: f64 = 10.0;
+/// Overshoot that costs nothing, and the price of the rest, squared. An integral of the error leaves its overshoot
+/// slowly, so half the band that counts as settled is all there is to give.
+const FREE_OVERSHOOT: f64 = 0.5 * SETTLING_BAND;
+const OVERSHOOT_WEIGHT: f64 = 300.0;
 
 /// Least cost of a flight that stops being finite.
-const PENALTY: f64 = 1e3;
+const PENALTY: f64 = 1e6;
 
 /// A vehicle in hover, a loop to excite, and what to judge it by.
 pub(super) struct Bench {
@@ -75,7 +77,10 @@ impl Bench {
             TunedLoop::Attitude => about(Vector3::x()),
             TunedLoop::Yaw => about(Vector3::z()),
             // Height and thrust both count upwards.
-            TunedLoop::Height => Demand { thrust: pid.body.mass * acceleration, ..none },
+            TunedLoop::Height => Demand {
+                thrust: pid.body.mass * acceleration,
+                ..none
+            },
             TunedLoop::Position => none,
         };
         let horizon = if tuned == TunedLoop::Position {
@@ -120,7 +125,11 @@ impl Bench {
                 return PENALTY * (2.0 - f64::from(k) / f64::from(steps));
             }
             self.add(&mut account, f64::from(k), f64::from(steps / 2), y);
-            account.variation += commands.iter().zip(&before).map(|(u, v)| (u - v).abs()).sum::<f64>();
+            account.variation += commands
+                .iter()
+                .zip(&before)
+                .map(|(u, v)| (u - v).abs())
+                .sum::<f64>();
             before = commands;
             if loaded {
                 commands = std::array::from_fn(|i| commands[i] + self.load[i]);
@@ -131,7 +140,12 @@ impl Bench {
     }
 
     /// Commands and memory for a step in the loop.
-    fn control(&self, pid: &Pid<f64>, memory: &PidMemory<f64>, flight: &Flight<f64>) -> ([f64; 4], PidMemory<f64>) {
+    fn control(
+        &self,
+        pid: &Pid<f64>,
+        memory: &PidMemory<f64>,
+        flight: &Flight<f64>,
+    ) -> ([f64; 4], PidMemory<f64>) {
         let (step, o) = (self.target.step, Vector3::zeros());
         let hold = Reference::hold(o, 0.0);
         let answer = match self.tuned {
@@ -191,7 +205,7 @@ impl Account {
         let cost = self.step_error
             + LOAD_WEIGHT * self.load_error
             + ACTIVITY_WEIGHT * self.variation / hover
-            + OVERSHOOT_WEIGHT * (self.overshoot - FREE_OVERSHOOT).max(0.0);
+            + OVERSHOOT_WEIGHT * (self.overshoot - FREE_OVERSHOOT).max(0.0).powi(2);
         // A flight to far away may be finite and still dearer than one that broke off.
         cost.min(PENALTY)
     }
