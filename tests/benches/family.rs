@@ -147,7 +147,7 @@ fn batch<R: Real>(bencher: Bencher) {
     let bare = model.bare().expect("level 3 has no parts switched on");
     let start = model.hover(Vector3::zeros(), constant(0.3)).state;
     let inputs = vec![input(&model); VEHICLES];
-    let mut states = Batch::new(&vec![start; VEHICLES]);
+    let mut states = Batch::new(&[start; VEHICLES]);
     bencher.bench_local(|| {
         for _ in 0..STEPS {
             states.rk4_step(&bare, black_box(&inputs), constant(STEP_S));

@@ -4,6 +4,11 @@
 //! The tests themselves stand in `tests/family` (laws between levels, one battery for every model) and
 //! `tests/allocation.rs` (no heap in a step).
 
+/// The workspace's front page, whose program is compiled and run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct FrontPage;
+
 mod flights;
 mod models;
 mod vehicles;

@@ -5,7 +5,7 @@
 
 use crate::{Body, EulerAngles, Quaternion, Rotation, World, cross_matrix};
 use nalgebra::{Matrix3, Vector3};
-use quad_math::{Real, constant};
+use quad_math::{Real, atan2, constant, sqrt};
 
 impl<R: Real> Rotation<R, Body, World> {
     /// `Ṙ = R [ω]×` with the body rates `ω`, rad/s.
@@ -16,16 +16,15 @@ impl<R: Real> Rotation<R, Body, World> {
 
     /// The Euler angles; roll and yaw lose their meaning near `θ = ±90°`.
     ///
-    /// The sine of the pitch is clamped to ±1, so rounding can't make a NaN; its derivative is infinite
-    /// there, as the singularity is.
+    /// The pitch is `atan2(−R_31, √(R_32² + R_33²))`: full accuracy everywhere and no NaN at the singularity,
+    /// where its derivative is not defined.
     #[inline(always)]
     pub fn euler_angles(&self) -> EulerAngles<R> {
         let m = &self.matrix;
-        let l = R::one();
         EulerAngles {
-            roll: m[(2, 1)].simd_atan2(m[(2, 2)]),
-            pitch: (-m[(2, 0)]).simd_clamp(-l, l).simd_asin(),
-            yaw: m[(1, 0)].simd_atan2(m[(0, 0)]),
+            roll: atan2(m.m32, m.m33),
+            pitch: atan2(-m.m31, sqrt(m.m32 * m.m32 + m.m33 * m.m33)),
+            yaw: atan2(m.m21, m.m11),
         }
     }
 

@@ -42,6 +42,7 @@
 //! step costs accuracy whatever the order, so put kinks on the ends of steps.
 
 mod adaptive;
+mod atan2;
 mod batch;
 mod derivatives;
 mod dispatch;
@@ -57,6 +58,7 @@ pub use adaptive::{
     AdaptiveError, AdaptiveOptions, AdaptiveRun, AdaptiveStatistics, AdaptiveStatus, DenseStep,
     DormandPrince, DormandPrinceStep, dormand_prince_step,
 };
+pub use atan2::atan2;
 pub use batch::{Batch, LANES, MAX_NUMBERS};
 pub use derivatives::{Dual, Taylor3, jacobian, output_derivatives};
 pub use dispatch::{dispatch, instruction_set};

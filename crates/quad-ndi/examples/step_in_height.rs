@@ -74,8 +74,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!();
     }
     println!(
-        "c1 and c2 don't know the rotors' lag and overshoot from level 3 on; no controller knows that the rotors of"
+        "c1 and c2 don't know the rotors' lag and settle later from level 3 on. No controller knows that the"
     );
-    println!("level 5 are not linear, which leaves an error, and its limits and battery.");
+    println!("rotors of level 5 are not linear and that their battery sags: an error remains.");
     Ok(())
 }

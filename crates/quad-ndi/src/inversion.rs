@@ -16,7 +16,7 @@ pub use c3::{C3, ObserverState};
 use crate::settings::Gains;
 use nalgebra::{Matrix3, Vector3};
 use quad_dynamics::{Flight, RigidBody};
-use quad_math::{Real, constant};
+use quad_math::{Real, atan2, constant};
 
 /// Least cosine of a tilt that is divided by (84°): beyond it a demand saturates instead of exploding.
 const LEAST_COSINE: f64 = 0.1;
@@ -52,8 +52,8 @@ fn tilt_demand<R: Real>(demand: [R; 2], up: R, flight: &Flight<R>, gravity: R) -
     let up = up.simd_max(gravity * constant(LEAST_SPECIFIC_FORCE));
     let forward = demand[0] * heading.cos + demand[1] * heading.sin;
     let right = demand[1] * heading.cos - demand[0] * heading.sin;
-    let roll = (right / quad_math::sqrt(forward * forward + up * up)).simd_atan();
-    let pitch = (-forward / up).simd_atan();
+    let roll = atan2(right, quad_math::sqrt(forward * forward + up * up));
+    let pitch = atan2(-forward, up);
     [roll, pitch]
 }
 

@@ -94,5 +94,10 @@ pub use reference::{AttitudeFeedForward, FlatOutput, Reference, TiltLaw};
 pub use settings::{AttitudeSettings, Gains, LoopGains, LoopSettings, Settings, SettingsError};
 pub use trajectory::{Boundary, Leg, Trajectory, TrajectoryError, Waypoint};
 
+/// The example of the README, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 #[cfg(test)]
 mod tests;

@@ -166,6 +166,13 @@ impl<R: Real> Controller<R> for C3<R> {
     ) -> Control<R, ObserverState<R>> {
         let thrusts = flight.thrusts.unwrap_or(memory.thrusts);
         let commands = limited(self.limits.as_ref(), self.demand(flight, reference, &thrusts));
+        if flight.thrusts.is_some() {
+            // Nothing to observe: the next call is shown the thrusts again.
+            return Control {
+                commands,
+                memory: ObserverState { thrusts },
+            };
+        }
         // The first-order rotor under a held command, solved exactly over the step.
         let keep = (-self.bandwidth * dt).simd_exp();
         let thrusts = std::array::from_fn(|i| {

@@ -29,6 +29,20 @@ const VEHICLE: Claim = Claim::holds("the vehicle file holds the identified coeff
 /// Digits of the vehicle file: six for `C_T`, six for `C_Q`.
 const PRINTED: f64 = 1e-5;
 
+/// A coefficient: how it is named, measured and stored.
+struct Quantity {
+    name: &'static str,
+    column: &'static str,
+    /// Thrust, N, or torque, N m.
+    value: fn(&Row) -> f64,
+    /// The published coefficient.
+    coefficient: fn(&Row) -> f64,
+    /// Power of the diameter in the law.
+    power: i32,
+    /// The coefficient in the vehicle file.
+    in_file: f64,
+}
+
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let rows = propeller::read(context)?;
     let vehicle = load_vehicle(context, NOMINAL_VEHICLE)?;
@@ -57,26 +71,34 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     ]);
     let mut findings = Vec::new();
     let in_file = vehicle.require_propeller("table 4.3")?;
-    let quantities: [(&str, &str, fn(&Row) -> f64, fn(&Row) -> f64, i32, f64); 2] = [
-        (
-            "*C*_{T}",
-            "C_T",
-            Row::thrust,
-            |r| r.thrust_coefficient,
-            4,
-            in_file.thrust_coefficient,
-        ),
-        (
-            "*C*_{Q}",
-            "C_Q",
-            Row::torque,
-            Row::torque_coefficient,
-            5,
-            in_file.torque_coefficient,
-        ),
+    let quantities = [
+        Quantity {
+            name: "*C*_{T}",
+            column: "C_T",
+            value: Row::thrust,
+            coefficient: |r| r.thrust_coefficient,
+            power: 4,
+            in_file: in_file.thrust_coefficient,
+        },
+        Quantity {
+            name: "*C*_{Q}",
+            column: "C_Q",
+            value: Row::torque,
+            coefficient: Row::torque_coefficient,
+            power: 5,
+            in_file: in_file.torque_coefficient,
+        },
     ];
-    for (name, plain, y, coefficient, power, file) in quantities {
-        let fit = propeller::fit(&rows, y)?;
+    for Quantity {
+        name,
+        column,
+        value,
+        coefficient,
+        power,
+        in_file,
+    } in quantities
+    {
+        let fit = propeller::fit(&rows, value)?;
         let (identified, half_width) = (
             fit.slope / propeller::scale(power),
             fit.half_width / propeller::scale(power),
@@ -90,7 +112,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             format!("{:.5}", published(last)),
         ]);
         data.push([
-            plain.into(),
+            column.into(),
             identified.into(),
             half_width.into(),
             published(first).into(),
@@ -100,7 +122,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         findings.push((
             (identified - published(hover_rpm)).abs() / half_width,
             identified / published(hover_rpm) - 1.0,
-            (identified / file - 1.0).abs(),
+            (identified / in_file - 1.0).abs(),
         ));
     }
     let widths: Vec<String> = findings

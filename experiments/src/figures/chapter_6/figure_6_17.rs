@@ -65,7 +65,7 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
         .panel(space)
         .panel(panel("Heading *ψ*, rad", &columns[3]))
         .panel(panel("Acceleration |*r̈*|, m s^{−2}", &acceleration))
-        .panel_size(470.0, 230.0);
+        .panel_size(470.0, 250.0);
     let jump = largest_jump(&trajectory);
     Ok(Drawing::picture(figure.draw())
         .data(DataTable::from_columns(&[
