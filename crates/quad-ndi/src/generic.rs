@@ -9,7 +9,7 @@
 //! For models whose derivative is affine in the commands with one relative degree for all outputs:
 //! levels 1 and 2 (ν = 2) and 3 (ν = 3), without input limits, at pitch angles below 90°.
 
-use nalgebra::{Matrix4, Matrix6x4, Vector3, Vector4, Vector6};
+use nalgebra::{Matrix4, Matrix6x4, SimdComplexField, Vector3, Vector4, Vector6};
 use quad_dynamics::{Input, QuadrotorModel, StateOf};
 use quad_math::{Flat, Taylor3, output_derivatives};
 
@@ -50,6 +50,16 @@ pub enum InversionError {
     },
 }
 
+/// The angle `atan2(y, x)` less its present value: same derivatives.
+///
+/// [`quad_math::atan2`] is a rational approximation and loses digits with each derivative. Turned by its
+/// present value the angle is zero, where num-dual's arc tangent is exact to rounding in all derivatives.
+fn deviation(y: Taylor3, x: Taylor3) -> Taylor3 {
+    let size = x.re.hypot(y.re);
+    let (sin, cos) = (y.re / size, x.re / size);
+    ((y * cos - x * sin) / (x * cos + y * sin)).simd_atan()
+}
+
 impl Decoupling {
     /// Drift and decoupling matrix of `y = [z, φ, θ, ψ]` at a state given as numbers (in the order of the
     /// model's [`Flat`] state).
@@ -77,8 +87,11 @@ impl Decoupling {
                 |x| model.derivative(x, &input),
                 |x| {
                     let flight = model.flight(x);
-                    let (r, eta) = (&flight.position, &flight.attitude);
-                    [r.z, eta.roll, eta.pitch, eta.yaw, r.x, r.y]
+                    let (r, m) = (&flight.position, &flight.rotation.matrix);
+                    let cos_pitch = (m.m32 * m.m32 + m.m33 * m.m33).simd_sqrt();
+                    let roll = deviation(m.m32, m.m33);
+                    let pitch = deviation(-m.m31, cos_pitch);
+                    [r.z, roll, pitch, deviation(m.m21, m.m11), r.x, r.y]
                 },
                 state,
             );
@@ -113,13 +126,15 @@ impl Decoupling {
             let condition = f64::INFINITY;
             return Err(InversionError::NearSingular { condition });
         }
-        let svd = scaled.svd(true, true);
-        let condition = svd.singular_values.max() / svd.singular_values.min();
+        let singular_values = scaled.singular_values();
+        let condition = singular_values.max() / singular_values.min();
         if condition.is_nan() || condition > LARGEST_CONDITION {
             return Err(InversionError::NearSingular { condition });
         }
-        svd.solve(&target, 0.0)
+        // Not by the singular vectors, which nalgebra finds to some ten digits only.
+        let solution = scaled.lu().solve(&target);
+        solution
             .map(Into::into)
-            .map_err(|_| InversionError::NearSingular { condition })
+            .ok_or(InversionError::NearSingular { condition })
     }
 }
