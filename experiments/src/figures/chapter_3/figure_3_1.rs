@@ -150,7 +150,7 @@ fn rotor(
     diagram.line(&around(0.42, 0.0, std::f64::consts::TAU), Look::solid(GREY, 1.0));
     let thrust_tip = to_page(hub - Vector3::z() * 0.62);
     diagram.arrow(&[to_page(hub), thrust_tip], Look::solid(BLUE, 2.2));
-    diagram.text(thrust_tip.offset(-14.0, 0.0), &format!("*T*_{{{number}}}"));
+    diagram.text(thrust_tip.offset(14.0, 10.0), &format!("*T*_{{{number}}}"));
     // Positive angles about z_B go clockwise seen from above; the torque goes the other way.
     diagram.arrow(&around(0.3, 0.3, 0.3 - spin * 4.2), Look::solid(VERMILION, 1.8));
     let label = to_page(hub * 1.62);
