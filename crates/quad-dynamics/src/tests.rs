@@ -296,3 +296,25 @@ fn exact_levels_and_their_numbers() {
     assert!(Level::Three.phenomena().is_subset(&Level::Four.phenomena()));
     assert!(!Level::Five.phenomena().is_subset(&Level::Four.phenomena()));
 }
+
+/// The model without its switches is the model: the same numbers, bit for bit, and none while a part is on.
+#[test]
+fn agree_bare_model_with_the_switched_one() {
+    let vehicle = qball();
+    let model = crate::Level3::<f64>::build(&vehicle, &PhenomenonSet::none()).unwrap();
+    let hover = model.hover(Vector3::new(1.0, -2.0, -3.0), 0.7);
+    let mut state = hover.state;
+    state.body.velocity = Vector3::new(0.5, -0.4, 0.3);
+    state.body.body_rates = Vector3::new(1.0, -2.0, 0.5);
+    let mut input = hover.input;
+    input.commands[1] += 1e-3;
+    let bare = model.bare().unwrap();
+    assert_eq!(bare.derivative(&state, &input), model.derivative(&state, &input));
+    let limited = PhenomenonSet::none().with(crate::Phenomenon::InputLimits);
+    assert!(
+        crate::Level3::<f64>::build(&vehicle, &limited)
+            .unwrap()
+            .bare()
+            .is_none()
+    );
+}
