@@ -1,0 +1,209 @@
+//! What an identification answers: estimates with their uncertainty, and how well they describe the data.
+
+use nalgebra::SMatrix;
+use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// The confidence level of every interval printed by this crate, unless another is asked for.
+pub const CONFIDENCE: f64 = 0.95;
+
+/// An estimated number with its uncertainty, in the unit of the number.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The estimate.
+    pub value: f64,
+    /// Its standard error; 0 for a number that was given, not estimated.
+    pub standard_error: f64,
+    /// Degrees of freedom of the standard error: of Student's t that the interval uses. Infinite for a known error.
+    pub degrees_of_freedom: f64,
+}
+
+/// A confidence interval.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Interval {
+    /// Lower end.
+    pub lower: f64,
+    /// Upper end.
+    pub upper: f64,
+}
+
+impl Interval {
+    /// Whether the interval contains a value; its ends belong to it.
+    pub fn contains(&self, value: f64) -> bool {
+        (self.lower..=self.upper).contains(&value)
+    }
+}
+
+impl Estimate {
+    /// A number known with this standard error, as from a data sheet.
+    pub fn known(value: f64, standard_error: f64) -> Self {
+        Self {
+            value,
+            standard_error,
+            degrees_of_freedom: f64::INFINITY,
+        }
+    }
+
+    /// The 95 % confidence interval.
+    pub fn interval(&self) -> Interval {
+        self.interval_at(CONFIDENCE)
+    }
+
+    /// The confidence interval at a level between 0 and 1, by Student's t.
+    ///
+    /// # Panics
+    /// If the level is not between 0 and 1: a programming error.
+    pub fn interval_at(&self, confidence: f64) -> Interval {
+        let half = student_quantile(0.5 + 0.5 * confidence, self.degrees_of_freedom) * self.standard_error;
+        Interval {
+            lower: self.value - half,
+            upper: self.value + half,
+        }
+    }
+
+    /// Half the width of the 95 % interval.
+    pub fn half_width(&self) -> f64 {
+        student_quantile(0.5 + 0.5 * CONFIDENCE, self.degrees_of_freedom) * self.standard_error
+    }
+
+    /// The estimate of `f(x)` to first order, with `|f'|` times the standard error.
+    #[must_use]
+    pub fn mapped(&self, value: f64, slope: f64) -> Self {
+        Self {
+            value,
+            standard_error: self.standard_error * slope.abs(),
+            ..*self
+        }
+    }
+}
+
+/// Quantile of Student's t; of the normal distribution beyond a million degrees of freedom, where both agree to 1e-6.
+fn student_quantile(probability: f64, degrees_of_freedom: f64) -> f64 {
+    assert!(
+        probability > 0.0 && probability < 1.0,
+        "a confidence level is between 0 and 1"
+    );
+    StudentsT::new(0.0, 1.0, degrees_of_freedom.clamp(f64::MIN_POSITIVE, 1e6))
+        .map_or(f64::NAN, |t| t.inverse_cdf(probability))
+}
+
+/// How well a fit describes the data.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Goodness {
+    /// Residual standard deviation `√(Σ r² / (n − p))`, in the unit of the data.
+    pub standard_deviation: f64,
+    /// Largest residual, in the unit of the data.
+    pub largest_residual: f64,
+    /// `R² = 1 − Σ r² / Σ (y − ȳ)²`; `None` if the data are constant.
+    pub r_squared: Option<f64>,
+    /// `n − p`.
+    pub degrees_of_freedom: f64,
+}
+
+impl Goodness {
+    /// From residuals, the data they belong to, and the number of fitted parameters.
+    pub fn of(residuals: &[f64], data: &[f64], parameters: usize) -> Self {
+        let squares: f64 = residuals.iter().map(|r| r * r).sum();
+        let mean = data.iter().sum::<f64>() / data.len() as f64;
+        let spread: f64 = data.iter().map(|y| (y - mean).powi(2)).sum();
+        let degrees_of_freedom = residuals.len() as f64 - parameters as f64;
+        Self {
+            standard_deviation: (squares / degrees_of_freedom).sqrt(),
+            largest_residual: residuals.iter().fold(0.0_f64, |m, r| m.max(r.abs())),
+            r_squared: (spread > 0.0).then(|| 1.0 - squares / spread),
+            degrees_of_freedom,
+        }
+    }
+}
+
+/// The result of a least-squares fit with `N` parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit<const N: usize> {
+    /// The parameters in the order of the model.
+    pub parameters: [Estimate; N],
+    /// Their covariance matrix.
+    pub covariance: SMatrix<f64, N, N>,
+    /// Measured minus fitted, in the order of the data.
+    pub residuals: Vec<f64>,
+    /// How well the fit describes the data.
+    pub goodness: Goodness,
+    /// Condition number of the scaled problem: large where the data hardly tell two parameters apart.
+    pub condition_number: f64,
+    /// How the iteration ended; `None` for a linear fit, which has none.
+    pub convergence: Option<Convergence>,
+    /// What a reader must know before using the numbers.
+    pub warnings: Vec<Warning>,
+}
+
+impl<const N: usize> Fit<N> {
+    /// The parameters' values.
+    pub fn values(&self) -> [f64; N] {
+        self.parameters.map(|p| p.value)
+    }
+
+    /// The standard error of a combination of parameters with this gradient: `√(gᵀ C g)`.
+    pub fn propagated(&self, value: f64, gradient: &[f64; N]) -> Estimate {
+        let g = nalgebra::SVector::<f64, N>::from(*gradient);
+        Estimate {
+            value,
+            standard_error: (g.transpose() * self.covariance * g).x.max(0.0).sqrt(),
+            degrees_of_freedom: self.goodness.degrees_of_freedom,
+        }
+    }
+}
+
+/// How an iteration ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Convergence {
+    /// Whether a stopping criterion of the minimum was met.
+    pub converged: bool,
+    /// Evaluations of the residuals.
+    pub evaluations: usize,
+}
+
+/// Something that makes an estimate less trustworthy than its interval says.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Warning {
+    /// Two or more parameters are hardly told apart by the data.
+    #[error(
+        "the data hardly tell the parameters apart (condition number {condition_number:.1e}): their intervals are wide and \
+         correlated"
+    )]
+    IllConditioned {
+        /// Condition number of the scaled problem.
+        condition_number: f64,
+    },
+    /// The residuals are not white: the model misses something, and the standard errors are too small.
+    #[error(
+        "the residuals are correlated (Ljung-Box p = {p_value:.1e} over {lags} lags): the model misses something and its intervals \
+         are too narrow"
+    )]
+    CorrelatedResiduals {
+        /// Probability of residuals so correlated if they were white.
+        p_value: f64,
+        /// Lags tested.
+        lags: usize,
+    },
+    /// The iteration stopped before a minimum was found.
+    #[error("the fit did not converge within {evaluations} evaluations: the numbers are the best found")]
+    NotConverged {
+        /// Evaluations of the residuals.
+        evaluations: usize,
+    },
+    /// A sensor sat at the end of its range.
+    #[error("{samples} samples sit at the end of the sensor's range ({limit}): they pull the fit")]
+    Saturated {
+        /// How many.
+        samples: usize,
+        /// The value that repeats.
+        limit: f64,
+    },
+    /// Samples are missing.
+    #[error("{gaps} gaps in time, the longest {longest_s} s: they are bridged by holding the input")]
+    Gaps {
+        /// How many.
+        gaps: usize,
+        /// The longest, s.
+        longest_s: f64,
+    },
+}

@@ -1,0 +1,8 @@
+//! System identification of a quadrotor.
+
+pub mod estimate;
+pub mod laboratory;
+pub mod regression;
+pub mod residual;
+
+pub use estimate::{Convergence, Estimate, Fit, Goodness, Interval, Warning};

@@ -1,0 +1,64 @@
+//! Least squares: linear by singular values, non-linear by Levenberg-Marquardt, total where both axes are noisy.
+//!
+//! ```text
+//! y = X p + r:   p̂ = argmin |r|²,   cov p̂ = s² (Xᵀ X)⁻¹,   s² = |r|² / (n − p)
+//! y = f(p) + r:  the same at the minimum, with X = ∂f/∂p by automatic differentiation
+//! ```
+//!
+//! Assumptions: residuals independent, of equal variance, and small enough that `f` is straight over the intervals. The
+//! columns of X are scaled to unit length first, so that the condition number speaks of the data and not of units.
+//! Source: Draper and Smith, *Applied Regression Analysis*; Golub and Van Loan, *Matrix Computations*, chapters 5 and 6.
+
+mod linear;
+mod nonlinear;
+
+pub use linear::{Row, linear};
+pub use nonlinear::{Predictor, nonlinear};
+
+/// Why a fit was refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// Fewer data than unknowns, or as many: no residual is left to judge the fit by.
+    #[error("{points} data do not determine {unknowns} unknowns with their uncertainty: at least {} are needed", unknowns + 1)]
+    TooFewPoints {
+        /// How many data there are.
+        points: usize,
+        /// How many unknowns are sought.
+        unknowns: usize,
+    },
+    /// The data leave a combination of the unknowns open.
+    #[error(
+        "the data determine only {rank} of {unknowns} unknowns: vary the input so that each has an effect of its own"
+    )]
+    RankDeficient {
+        /// How many combinations are determined.
+        rank: usize,
+        /// How many unknowns are sought.
+        unknowns: usize,
+    },
+    /// A number is NaN or infinite.
+    #[error("datum {index} (counted from 0) is not finite")]
+    NotFinite {
+        /// Place in the order of the data.
+        index: usize,
+    },
+    /// The model gave NaN or infinity at the start of the iteration.
+    #[error("the model has no finite prediction at the start {start:?}: choose another")]
+    NoStart {
+        /// The start.
+        start: Vec<f64>,
+    },
+    /// The decomposition did not converge.
+    #[error("the singular values of the data could not be computed")]
+    Decomposition,
+}
+
+/// Ratio of singular values below which a combination counts as undetermined: rounding of the data in `f64`.
+const RANK_TOLERANCE: f64 = 1e-12;
+
+/// Condition number of the scaled problem from which a warning is given: four digits of the data's sixteen and of any
+/// measurement's three or four are then lost in the worst combination.
+const ILL_CONDITIONED: f64 = 1e4;
+
+#[cfg(test)]
+mod tests;
