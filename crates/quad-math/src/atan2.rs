@@ -53,8 +53,14 @@ pub fn atan2<R: Real>(y: R, x: R) -> R {
     let origin = bottom.simd_eq(R::zero());
     let t = top / R::one().select(origin, bottom);
     let z = t * t;
-    let poly = |start: R, c: &[f64]| c.iter().fold(start, |sum, &c| sum * z + constant(c));
-    let correction = t * z * (poly(R::zero(), &P) / poly(R::one(), &Q));
+    // Estrin's scheme: pairs side by side instead of one chain, since a controller waits for the result.
+    let z2 = z * z;
+    let tail =
+        |c: &[f64; 5]| (z * constant(c[1]) + constant(c[2])) * z2 + (z * constant(c[3]) + constant(c[4]));
+    let z4 = z2 * z2;
+    let p = z4 * constant(P[0]) + tail(&P);
+    let q = z4 * (z + constant(Q[0])) + tail(&Q);
+    let correction = t * z * (p / q);
     let base: R = constant::<R>(FRAC_PI_4).select(fold, R::zero());
     let octant = base + (t + correction);
     let quadrant = (constant::<R>(FRAC_PI_2) - octant).select(steep, octant);

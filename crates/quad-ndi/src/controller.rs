@@ -137,7 +137,8 @@ impl<R: Real> Allocation<R> {
     /// Zeroed commands of ideal rotors that give the demand: `u_i = T_i / K_T`.
     #[inline(always)]
     pub fn commands(&self, demand: &Demand<R>) -> [R; 4] {
-        self.thrusts(demand).map(|thrust| thrust / self.thrust_gain)
+        let per_thrust = R::one() / self.thrust_gain;
+        self.thrusts(demand).map(|thrust| thrust * per_thrust)
     }
 
     /// Pseudo-inputs `u* = C u = [u_col, u_lat, u_long, u_yaw]`.

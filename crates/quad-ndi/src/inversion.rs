@@ -42,18 +42,24 @@ fn horizontal_demand<R: Real>(
     [axis(0), axis(1)]
 }
 
-/// Roll and pitch, rad, that make the demanded horizontal acceleration while the specific force along
-/// `−z_W` is `up`, m/s²: `θ = atan(−a'_x/up)`, `φ = atan(a'_y/√(a'_x² + up²))`.
+/// Errors of roll and pitch, rad, against the tilt that makes the demanded horizontal acceleration while the
+/// specific force along `−z_W` is `up`, m/s²: `θ_des = atan(−a'_x/up)`, `φ_des = atan(a'_y/√(a'_x² + up²))`.
 ///
-/// `up` is held at a tenth of g or more, so a demand to fall doesn't turn the vehicle over.
+/// Each error is the angle between two directions of a plane, `atan(d_1 × d_2 / d_1 · d_2)`: one arc tangent
+/// instead of the difference of two, and within ±π by itself. `up` is held at a tenth of g or more, so a demand to
+/// fall doesn't turn the vehicle over.
 #[inline(always)]
-fn tilt_demand<R: Real>(demand: [R; 2], up: R, flight: &Flight<R>, gravity: R) -> [R; 2] {
+fn tilt_errors<R: Real>(demand: [R; 2], up: R, flight: &Flight<R>, gravity: R) -> [R; 2] {
     let heading = Heading::of(flight);
     let up = up.simd_max(gravity * constant(LEAST_SPECIFIC_FORCE));
     let forward = demand[0] * heading.cos + demand[1] * heading.sin;
     let right = demand[1] * heading.cos - demand[0] * heading.sin;
-    let roll = atan2(right, quad_math::sqrt(forward * forward + up * up));
-    let pitch = atan2(-forward, up);
+    let m = &flight.rotation.matrix;
+    // [cos φ, sin φ] cos θ = [R_33, R_32] and [cos θ, sin θ] = [√(R_32² + R_33²), −R_31].
+    let level = quad_math::sqrt(forward * forward + up * up);
+    let roll = atan2(right * m.m33 - level * m.m32, level * m.m33 + right * m.m32);
+    let cos_pitch = cos_pitch(flight);
+    let pitch = atan2(up * m.m31 - forward * cos_pitch, up * cos_pitch + forward * m.m31);
     [roll, pitch]
 }
 
@@ -70,13 +76,19 @@ impl<R: Real> Heading<R> {
     #[inline(always)]
     fn of(flight: &Flight<R>) -> Self {
         let m = &flight.rotation.matrix;
-        let cos_pitch = quad_math::sqrt(m.m11 * m.m11 + m.m21 * m.m21);
-        let scale = R::one() / cos_pitch.simd_max(constant(LEAST_COSINE));
+        let scale = R::one() / cos_pitch(flight).simd_max(constant(LEAST_COSINE));
         Self {
             sin: m.m21 * scale,
             cos: m.m11 * scale,
         }
     }
+}
+
+/// Cosine of the pitch, `√(R_WB,32² + R_WB,33²)`: the one expression for it, so that it is computed once per step.
+#[inline(always)]
+fn cos_pitch<R: Real>(flight: &Flight<R>) -> R {
+    let m = &flight.rotation.matrix;
+    quad_math::sqrt(m.m32 * m.m32 + m.m33 * m.m33)
 }
 
 /// Cosine of the tilt, `R_WB,33 = cos φ cos θ`, held at a tenth or more.
@@ -95,6 +107,7 @@ struct EulerKinematics<R: Real> {
     cos_roll: R,
     sin_pitch: R,
     cos_pitch: R,
+    inverse_cos_pitch: R,
     rates: Vector3<R>,
 }
 
@@ -102,9 +115,7 @@ impl<R: Real> EulerKinematics<R> {
     #[inline(always)]
     fn of(flight: &Flight<R>) -> Self {
         let m = &flight.rotation.matrix;
-        let cos_pitch = (m.m32 * m.m32 + m.m33 * m.m33)
-            .simd_sqrt()
-            .simd_max(constant(LEAST_COSINE));
+        let cos_pitch = cos_pitch(flight).simd_max(constant(LEAST_COSINE));
         let inverse = R::one() / cos_pitch;
         let (sin_roll, cos_roll, sin_pitch) = (m.m32 * inverse, m.m33 * inverse, -m.m31);
         let w = &flight.body_rates;
@@ -116,6 +127,7 @@ impl<R: Real> EulerKinematics<R> {
             cos_roll,
             sin_pitch,
             cos_pitch,
+            inverse_cos_pitch: inverse,
             rates,
         }
     }
@@ -136,7 +148,7 @@ impl<R: Real> EulerKinematics<R> {
     /// `J v = W⁻¹ v`.
     #[inline(always)]
     fn euler_rates(&self, v: &Vector3<R>) -> Vector3<R> {
-        let turn = (self.sin_roll * v.y + self.cos_roll * v.z) / self.cos_pitch;
+        let turn = (self.sin_roll * v.y + self.cos_roll * v.z) * self.inverse_cos_pitch;
         Vector3::new(
             v.x + self.sin_pitch * turn,
             self.cos_roll * v.y - self.sin_roll * v.z,
@@ -153,6 +165,7 @@ impl<R: Real> EulerKinematics<R> {
             sin_pitch: st,
             cos_pitch: ct,
             rates,
+            ..
         } = *self;
         let (dp, dt, o) = (rates.x, rates.y, R::zero());
         Matrix3::new(
@@ -177,6 +190,7 @@ impl<R: Real> EulerKinematics<R> {
             sin_pitch: st,
             cos_pitch: ct,
             rates,
+            ..
         } = *self;
         let (dp, dt, ap, at) = (rates.x, rates.y, accelerations.x, accelerations.y);
         let (o, two) = (R::zero(), constant::<R>(2.0));

@@ -141,7 +141,7 @@ impl<R: Real> Cubic<R> {
     /// cubics that rise through the range of use.
     pub fn inverse(&self, y: R) -> R {
         let discriminant = self.k1 * self.k1 + self.k2 * y * constant(4.0);
-        let mut x = y * constant(2.0) / (self.k1 + discriminant.simd_max(R::zero()).simd_sqrt());
+        let mut x = y * constant(2.0) / (self.k1 + quad_math::sqrt(discriminant.simd_max(R::zero())));
         for _ in 0..12 {
             x -= (self.value(x) - y) / self.slope(x);
         }

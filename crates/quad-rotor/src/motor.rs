@@ -99,7 +99,7 @@ impl<R: Real> MechanisticRotor<R> {
             .simd_max(R::zero());
         let b = R::one() / (m.resistance * m.velocity_constant * m.velocity_constant);
         // The form without cancellation: 2c / (b + √(b² + 4 k_Q c)).
-        let root = (b * b + kq * drive * constant(4.0)).simd_sqrt();
+        let root = quad_math::sqrt(b * b + kq * drive * constant(4.0));
         drive * constant(2.0) / (b + root)
     }
 

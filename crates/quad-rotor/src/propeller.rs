@@ -6,7 +6,7 @@
 //! rise by about a fifth from 2400 to 6500 rpm for the propeller of the Qball-X4. Source: Brandt and
 //! Selig, *Propeller Performance Data at Low Reynolds Numbers*, AIAA 2011-1255.
 
-use quad_math::{Real, constant};
+use quad_math::{Real, constant, sqrt};
 use std::f64::consts::TAU;
 
 /// Speed below which the law `Ω = √(T/k_T)` is not inverted, rad/s: under it a propeller idles.
@@ -52,10 +52,7 @@ impl<R: Real> Propeller<R> {
     #[inline(always)]
     pub fn speed_for_thrust(&self, thrust: R) -> R {
         let speed_squared = thrust.simd_max(R::zero()) / self.thrust_per_speed_squared;
-        speed_squared
-            / speed_squared
-                .simd_max(constant(IDLE_SPEED * IDLE_SPEED))
-                .simd_sqrt()
+        speed_squared / sqrt(speed_squared.simd_max(constant(IDLE_SPEED * IDLE_SPEED)))
     }
 
     /// Spin acceleration `Ω̇ = Ṫ / (2 k_T Ω)`, rad/s², of a propeller whose thrust changes at `Ṫ`, N/s.

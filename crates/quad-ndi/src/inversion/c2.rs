@@ -1,6 +1,6 @@
 //! c2: the inversion of level 2.
 
-use super::{EulerKinematics, horizontal_demand, moment_for, tilt_cosine, tilt_demand};
+use super::{EulerKinematics, horizontal_demand, moment_for, tilt_cosine, tilt_errors};
 use crate::controller::{Allocation, Control, Controller, ControllerError, Demand, limited, wrapped};
 use crate::{Gains, Reference, Settings};
 use nalgebra::Vector3;
@@ -77,15 +77,15 @@ impl<R: Real> C2<R> {
             flat.acceleration.z,
         );
         let horizontal = horizontal_demand(&self.gains, flight, reference);
-        let [roll, pitch] = tilt_demand(horizontal, g - v_z, flight, g);
+        let [roll_error, pitch_error] = tilt_errors(horizontal, g - v_z, flight, g);
         let kinematics = EulerKinematics::of(flight);
-        let (eta, rates) = (&flight.attitude, &kinematics.rates);
+        let rates = &kinematics.rates;
         let tilt_loop = &self.gains.attitude;
         let v_eta = Vector3::new(
-            tilt_loop.second_order(roll - eta.roll, ff.rates.x - rates.x, ff.accelerations.x),
-            tilt_loop.second_order(pitch - eta.pitch, ff.rates.y - rates.y, ff.accelerations.y),
+            tilt_loop.second_order(roll_error, ff.rates.x - rates.x, ff.accelerations.x),
+            tilt_loop.second_order(pitch_error, ff.rates.y - rates.y, ff.accelerations.y),
             self.gains.yaw.second_order(
-                wrapped(flat.yaw - eta.yaw),
+                wrapped(flat.yaw - flight.attitude.yaw),
                 flat.yaw_rate - rates.z,
                 flat.yaw_acceleration,
             ),

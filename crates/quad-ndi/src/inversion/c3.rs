@@ -1,6 +1,6 @@
 //! c3: the inversion of level 3.
 
-use super::{EulerKinematics, horizontal_demand, tilt_cosine, tilt_demand};
+use super::{EulerKinematics, horizontal_demand, tilt_cosine, tilt_errors};
 use crate::controller::{Allocation, Control, Controller, ControllerError, Demand, limited, wrapped};
 use crate::{Gains, Reference, Settings};
 use nalgebra::Vector3;
@@ -109,8 +109,8 @@ impl<R: Real> C3<R> {
             moment: inertia * w_ddot + w_dot.cross(&(inertia * w)) + w.cross(&(inertia * w_dot)),
         };
         let thrust_rates = self.allocation.thrusts(&rate);
-        let lead = R::one() / self.bandwidth;
-        std::array::from_fn(|i| (thrusts[i] + thrust_rates[i] * lead) / self.allocation.thrust_gain)
+        let (lead, per_thrust) = (R::one() / self.bandwidth, R::one() / self.allocation.thrust_gain);
+        std::array::from_fn(|i| (thrusts[i] + thrust_rates[i] * lead) * per_thrust)
     }
 
     /// Zeroed commands, before limits, for the thrusts that the controller believes in.
@@ -125,9 +125,9 @@ impl<R: Real> C3<R> {
             flat.jerk.z,
         );
         let horizontal = horizontal_demand(&self.gains, flight, reference);
-        let [roll, pitch] = tilt_demand(horizontal, g - motion.vertical_acceleration, flight, g);
-        let (eta, rates) = (&flight.attitude, &motion.kinematics.rates);
-        let errors = Vector3::new(roll - eta.roll, pitch - eta.pitch, wrapped(flat.yaw - eta.yaw));
+        let [roll_error, pitch_error] = tilt_errors(horizontal, g - motion.vertical_acceleration, flight, g);
+        let rates = &motion.kinematics.rates;
+        let errors = Vector3::new(roll_error, pitch_error, wrapped(flat.yaw - flight.attitude.yaw));
         let gains = [&self.gains.attitude, &self.gains.attitude, &self.gains.yaw];
         let v_eta = Vector3::from_fn(|i, _| {
             gains[i].third_order(

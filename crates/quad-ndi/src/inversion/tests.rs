@@ -68,8 +68,9 @@ proptest! {
     fn exact_tilt_makes_the_demanded_acceleration(at in instant(), a in prop::array::uniform3(-4.0..4.0)) {
         // Thrust along −z_B whose vertical part balances `up` accelerates by `a` in the horizontal.
         let (g, up) = (9.81, 9.81 - a[2]);
-        let [roll, pitch] = tilt_demand([a[0], a[1]], up, &at.flight, g);
-        let r = EulerAngles::new(roll, pitch, at.eta[0].z).rotation().matrix;
+        let [roll, pitch] = tilt_errors([a[0], a[1]], up, &at.flight, g);
+        let eta = &at.flight.attitude;
+        let r = EulerAngles::new(eta.roll + roll, eta.pitch + pitch, at.eta[0].z).rotation().matrix;
         let thrust = up / r.m33;
         prop_assert!((-thrust * r.m13 - a[0]).abs() < 1e-12 && (-thrust * r.m23 - a[1]).abs() < 1e-12);
     }
