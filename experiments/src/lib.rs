@@ -20,7 +20,8 @@ pub mod flight;
 pub mod gallery;
 pub mod item;
 pub mod output;
-pub mod plot;
 pub mod reference;
 pub mod run;
 pub mod summary;
+
+pub use quad_plot as plot;

@@ -6,6 +6,19 @@
 //! - [`style`]: the looks: [`style::level_style`], [`style::reference_style`], [`style::controller_style`].
 //! - [`text`]: the rich text of all labels: `*z*` italic, `_{ref}` subscript, `^{2}` superscript.
 //! - [`raster`]: PNG by resvg with embedded fonts, so that a machine without fonts draws the same pictures.
+//!
+//! # Example
+//!
+//! ```rust
+//! use quad_plot::{Figure, Panel, level_name, level_style};
+//!
+//! let rise = (0..=100).map(|k| f64::from(k) / 50.0).map(|t| (t, 1.0 - (-3.0 * t).exp()));
+//! let panel = Panel::new("Time *t*, s", "Height *h*, m").line(level_name(3), level_style(3), rise);
+//! let svg = Figure::columns(1).panel(panel).draw();
+//! let png = quad_plot::raster::png(&svg)?;
+//! assert!(svg.document().contains("Height") && png.starts_with(b"\x89PNG"));
+//! # Ok::<(), quad_plot::raster::RasterError>(())
+//! ```
 
 pub mod axis;
 mod chart;

@@ -1,4 +1,4 @@
-//! The plot style on sample data: `cargo run -p experiments --example plot_style [folder]`.
+//! The plot style on sample data: `cargo run -p quad-plot --example plot_style [folder]`.
 //!
 //! Draws step responses of five levels with errors beneath, a phase plane, measured points with a fit, and a
 //! trajectory in space, as PNG and SVG.
@@ -7,12 +7,12 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
-use experiments::plot::figure::Legends;
-use experiments::plot::panel::{BandPoint, ErrorBar};
-use experiments::plot::style::{BLUE, Marker};
-use experiments::plot::svg::Svg;
-use experiments::plot::{Controller, Figure, Look, Panel, Space, controller_style, level_name, level_style};
-use experiments::plot::{raster, reference_style};
+use quad_plot::figure::Legends;
+use quad_plot::panel::{BandPoint, ErrorBar};
+use quad_plot::style::{BLUE, Marker};
+use quad_plot::svg::Svg;
+use quad_plot::{Controller, Figure, Look, Panel, Space, controller_style, level_name, level_style};
+use quad_plot::{raster, reference_style};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args_os()

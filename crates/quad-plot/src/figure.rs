@@ -10,7 +10,7 @@ use super::text;
 /// A grid of panels, filled row by row.
 ///
 /// ```
-/// use experiments::plot::{Figure, Panel, level_name, level_style};
+/// use quad_plot::{Figure, Panel, level_name, level_style};
 ///
 /// let wave = |phase: f64| (0..200).map(move |i| f64::from(i) * 0.01).map(move |t| (t, (t + phase).sin()));
 /// let mut height = Panel::new("Time *t*, s", "Height *z*, m").horizontal(1.0, "");

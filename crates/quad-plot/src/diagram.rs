@@ -6,8 +6,8 @@ use super::svg::{Anchor, Point, Svg, TextLook, at};
 /// A diagram under construction; draw in the order from back to front.
 ///
 /// ```
-/// use experiments::plot::diagram::{ARROW, Block, Diagram, PLAIN};
-/// use experiments::plot::svg::at;
+/// use quad_plot::diagram::{ARROW, Block, Diagram, PLAIN};
+/// use quad_plot::svg::at;
 ///
 /// let mut diagram = Diagram::new(300.0, 100.0);
 /// let plant = diagram.block(Block { centre: at(150.0, 50.0), size: (90.0, 44.0), fill: PLAIN }, "plant\n*ẋ* = *f*(*x*, *u*)");
