@@ -1,7 +1,7 @@
 //! `--check` and `--bless`: committed samples of the CSVs, and the comparison with them.
 //!
 //! A reference holds at most [`MAX_ROWS`] rows of its CSV, evenly spread, each with its row number. Numbers agree
-//! when they differ by at most `tolerance · range`, `range` being that of the reference's column.
+//! when they differ by at most `tolerance · range`, `range` being that of the reference's column, or by [`ROUNDING`].
 
 use std::fs;
 use std::io;
@@ -9,6 +9,10 @@ use std::path::{Path, PathBuf};
 
 use crate::data::{Cell, DataTable};
 use crate::output::{OutputError, save_file};
+
+/// Difference that is always allowed: several roundings of numbers of order one (m, rad, N, duty). A column that should be
+/// constant or zero holds nothing but rounding, and its range would ask for the same rounding again.
+pub const ROUNDING: f64 = 1e-15;
 
 /// Most rows of a reference file.
 pub const MAX_ROWS: usize = 60;
@@ -139,7 +143,7 @@ pub fn check(folder: &Path, file: &str, table: &DataTable) -> Result<(), CheckEr
     }
     for (k, &column) in kept.iter().enumerate() {
         let references: Vec<&str> = rows.iter().map(|row| row[k + 1].as_str()).collect();
-        let allowed = table.tolerance * range(&references);
+        let allowed = (table.tolerance * range(&references)).max(ROUNDING);
         for (&row, expected) in sample(expected).iter().zip(references) {
             let found = &table.rows[row][column];
             if !agrees(found, expected, allowed) {
@@ -242,6 +246,16 @@ mod tests {
             matches!(&error, CheckError::Value { column, .. } if column == "z_m"),
             "{error}"
         );
+        fs::remove_dir_all(folder).expect("removed");
+    }
+
+    #[test]
+    fn prop_a_column_of_rounding_noise_agrees_with_another() {
+        let folder = folder("rounding");
+        let noise = |values: &[f64]| DataTable::from_columns(&[("height_m", values)]);
+        bless(&folder, "x.csv", &noise(&[0.0, 3e-17, -5e-19])).expect("blessed");
+        check(&folder, "x.csv", &noise(&[1e-17, -2e-17, 0.0])).expect("rounding agrees with rounding");
+        check(&folder, "x.csv", &noise(&[1e-14, 0.0, 0.0])).expect_err("ten roundings are a difference");
         fs::remove_dir_all(folder).expect("removed");
     }
 

@@ -43,3 +43,7 @@ pub use style::{Controller, Look, controller_style, level_name, level_style, ref
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
