@@ -51,11 +51,15 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         &mut diagram,
         ORIGIN,
         &Rotation::<f64, World, World>::identity(),
-        ["*x*_{W} north", "*y*_{W} east", "*z*_{W} down"],
+        [
+            ("*x*_{W} north", (-26.0, -12.0)),
+            ("*y*_{W} east", (27.0, -4.0)),
+            ("*z*_{W} down", (0.0, 18.0)),
+        ],
         0.45,
     );
     diagram.line(&[ORIGIN, CENTRE], CONSTRUCTION);
-    diagram.text(at(205.0, 285.0), "*r*");
+    diagram.text(at(203.0, 274.0), "*r*");
     let arm = vehicle.airframe.arm_length;
     for i in 0..4 {
         let hub = vehicle.rotors[i].position / arm;
@@ -65,8 +69,12 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         &mut diagram,
         CENTRE,
         &r_wb,
-        ["*x*_{B}", "*y*_{B}", "*z*_{B}"],
-        0.62,
+        [
+            ("*x*_{B}", (-15.0, 6.0)),
+            ("*y*_{B}", (-3.0, -11.0)),
+            ("*z*_{B}", (-11.0, -20.0)),
+        ],
+        0.5,
     );
     let weight = CENTRE.offset(0.0, 135.0);
     diagram.arrow(&[CENTRE, weight], Look::solid(GREY, 2.2));
@@ -107,27 +115,19 @@ fn extremes(geometry: &RotorGeometry<f64>) -> (f64, f64) {
     found
 }
 
+/// Three axes; each name stands at an offset from its tip where it is clear of rotors and arrows.
 fn axes<From>(
     diagram: &mut Diagram,
     origin: Point,
     r: &Rotation<f64, From, World>,
-    names: [&str; 3],
+    names: [(&str, (f64, f64)); 3],
     length: f64,
 ) {
-    for (axis, name) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(names) {
+    for (axis, (name, (dx, dy))) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().zip(names) {
         let v_w = r.rotate(FrameVector::from_components(axis * length)).v;
         let tip = page(origin, v_w, SCALE);
         diagram.arrow(&[origin, tip], ARROW);
-        // The name stands beyond the tip, in the direction of the arrow.
-        let (dx, dy) = (tip.x - origin.x, tip.y - origin.y);
-        let size = dx.hypot(dy).max(1.0);
-        let gap = 14.0 + 14.0 * (dx / size).abs() * f64::from(u8::from(name.len() > 8));
-        // Beside the arrow for the body axes, which run along the arms.
-        let aside = if name.len() > 8 { 0.0 } else { 13.0 };
-        diagram.text(
-            tip.offset(gap * dx / size + aside, gap * dy / size + 4.0 + aside),
-            name,
-        );
+        diagram.text(tip.offset(dx, dy), name);
     }
 }
 
