@@ -52,7 +52,9 @@ pub enum ClockError {
         period_s: f64,
     },
     /// A second frame would be in flight before the first is delivered.
-    #[error("a latency of {latency_s} s is not below the camera's period of {period_s} s: one frame at most may be in flight")]
+    #[error(
+        "a latency of {latency_s} s is not below the camera's period of {period_s} s: one frame at most may be in flight"
+    )]
     LatencyBeyondPeriod {
         /// The latency, s.
         latency_s: f64,

@@ -63,6 +63,7 @@ mod ets;
 mod gimbal;
 mod image;
 mod power;
+mod quadrature;
 mod receiver;
 mod scalar;
 mod search;

@@ -72,4 +72,3 @@ pub(crate) fn whole<R: Real>(x: R) -> R {
     let room = constant::<R>(1.5 * 2.0_f64.powi(23)).select(single, constant(1.5 * 2.0_f64.powi(52)));
     (x + room) - room
 }
-

@@ -138,9 +138,7 @@ impl<R: Real> Sight<R> {
         let searching = flag::<R>(lost.simd_gt(R::zero()));
         let held = self.since.simd_min(tracker.hold);
         let predicted = self.direction + self.rate * held;
-        let sought = tracker
-            .search
-            .direction(&predicted, lost.simd_max(R::zero()));
+        let sought = tracker.search.direction(&predicted, lost.simd_max(R::zero()));
         PointMotion {
             position: choose(searching, &sought, &predicted),
             velocity: choose(searching, &Vector3::zeros(), &self.rate),
@@ -152,7 +150,7 @@ impl<R: Real> Sight<R> {
 impl Sight<f64> {
     /// What the tracker is doing.
     pub fn mode(&self, tracker: &Tracker<f64>) -> Mode {
-        if self.since > tracker.hold {
+        if self.since >= tracker.hold {
             Mode::Searching
         } else if self.seen == 1.0 {
             Mode::Tracking

@@ -141,9 +141,7 @@ impl<R: Real> Plant<'_, R> {
         demand: &Vector2<R>,
     ) -> GimbalCommand<R> {
         let (x, pan, tilt) = (self.state, &self.gimbal.pan, &self.gimbal.tilt);
-        let bias = self
-            .kinematics
-            .image_acceleration_at_constant_rates(x, target_c);
+        let bias = self.kinematics.image_acceleration_at_constant_rates(x, target_c);
         let achievable =
             |q_ddot: R| pan.acceleration(x.pan_rate + pan.time_constant * q_ddot, x.pan, x.pan_rate);
         let q_ddot = self.solve(image, &(demand - bias), achievable);
@@ -162,8 +160,7 @@ impl<R: Real> Plant<'_, R> {
         let (eta, zeta) = (image.x / f, image.y / f);
         let horizontal = away_from_zero(c + s * zeta, constant(SINGULAR));
         let one = R::one();
-        let remainder =
-            -f * (one + eta * eta + zeta * zeta) * horizontal / (one + zeta * zeta);
+        let remainder = -f * (one + eta * eta + zeta * zeta) * horizontal / (one + zeta * zeta);
         let pan = achievable((w.x - l.m12 * w.y / l.m22) / remainder);
         Vector2::new(pan, (w.y - l.m21 * pan) / l.m22)
     }

@@ -36,7 +36,9 @@ pub enum StationError {
         hint: &'static str,
     },
     /// An axis without travel.
-    #[error("{origin}: `{axis}.minimum_deg` = {minimum_deg} must be below `{axis}.maximum_deg` = {maximum_deg}")]
+    #[error(
+        "{origin}: `{axis}.minimum_deg` = {minimum_deg} must be below `{axis}.maximum_deg` = {maximum_deg}"
+    )]
     NoTravel {
         /// Name of the file.
         origin: String,
@@ -77,8 +79,22 @@ pub enum StationError {
         /// What is wrong with them.
         source: ClockError,
     },
+    /// A tracker that would take every gap between two frames for a loss.
+    #[error(
+        "{origin}: `tracker.hold_s` = {hold_s} s is too short: two frames and the latency take {least_s} s"
+    )]
+    HoldTooShort {
+        /// Name of the file.
+        origin: String,
+        /// Hold time, s.
+        hold_s: f64,
+        /// Two periods of the camera and its latency, s.
+        least_s: f64,
+    },
     /// A search that leaves gaps between its turns.
-    #[error("{origin}: `tracker.search_pitch_deg` = {pitch_deg} leaves gaps: the camera's smaller field of view is {view_deg} degrees")]
+    #[error(
+        "{origin}: `tracker.search_pitch_deg` = {pitch_deg} leaves gaps: the camera's smaller field of view is {view_deg} degrees"
+    )]
     SearchGaps {
         /// Name of the file.
         origin: String,
@@ -108,7 +124,9 @@ pub enum StationError {
         length: f64,
     },
     /// Neither a disc nor a rectangle, or both.
-    #[error("{origin}: [receiver] needs either `radius_m` (a disc) or `width_m` and `height_m` (a rectangle)")]
+    #[error(
+        "{origin}: [receiver] needs either `radius_m` (a disc) or `width_m` and `height_m` (a rectangle)"
+    )]
     Aperture {
         /// Name of the file.
         origin: String,

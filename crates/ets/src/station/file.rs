@@ -193,8 +193,7 @@ impl StationFile {
             key,
             message: error.message().to_owned(),
         };
-        let deserializer =
-            toml::Deserializer::parse(text).map_err(|error| refuse(".".to_owned(), &error))?;
+        let deserializer = toml::Deserializer::parse(text).map_err(|error| refuse(".".to_owned(), &error))?;
         serde_path_to_error::deserialize(deserializer)
             .map_err(|error| refuse(error.path().to_string(), error.inner()))
     }
@@ -208,7 +207,9 @@ fn line(text: &str, byte: usize) -> usize {
 fn not_empty<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
     let source = String::deserialize(deserializer)?;
     if source.trim().is_empty() {
-        return Err(D::Error::custom("empty source: every number says where it comes from"));
+        return Err(D::Error::custom(
+            "empty source: every number says where it comes from",
+        ));
     }
     Ok(source)
 }

@@ -3,7 +3,8 @@
 use super::file::{AxisFile, Order, ReceiverFile, StationFile, TrackerFile};
 use super::{Frames, LinkLimits, Station, StationError};
 use crate::{
-    Aperture, Atmosphere, Beam, Camera, ErrorDynamics, Gimbal, GimbalAxis, Pedestal, Receiver, Search, Tracker,
+    Aperture, Atmosphere, Beam, Camera, ErrorDynamics, Gimbal, GimbalAxis, Pedestal, Receiver, Search,
+    Tracker,
 };
 
 impl Station {

@@ -37,8 +37,14 @@ fn exact_signs_of_pan_and_tilt() {
     };
     let quarter = std::f64::consts::FRAC_PI_2;
     // Sine and cosine of π/2 in double precision: 6e-17.
-    assert!((axis(quarter, 0.0) - Vector3::y()).norm() < 1e-15, "pan clockwise from above: north to east");
-    assert!((axis(0.0, quarter) + Vector3::z()).norm() < 1e-15, "tilt upwards: to the zenith, −z");
+    assert!(
+        (axis(quarter, 0.0) - Vector3::y()).norm() < 1e-15,
+        "pan clockwise from above: north to east"
+    );
+    assert!(
+        (axis(0.0, quarter) + Vector3::z()).norm() < 1e-15,
+        "tilt upwards: to the zenith, −z"
+    );
     assert!((axis(quarter, 0.3).z + 0.3_f64.sin()).abs() < 1e-15);
 }
 

@@ -8,7 +8,10 @@ use quad_math::{Dual, Real, Taylor3, constant, jacobian};
 
 /// The image of a point `p_W` from the crossing of the axes, at pan and tilt.
 fn image<R: Real>(pan: R, tilt: R, p_w: &Vector3<R>) -> Vector2<R> {
-    let r_wc = pedestal().over().rotation(&GimbalState::at_rest(pan, tilt)).matrix;
+    let r_wc = pedestal()
+        .over()
+        .rotation(&GimbalState::at_rest(pan, tilt))
+        .matrix;
     camera().over().project(&r_wc.tr_mul(p_w)).point
 }
 
@@ -23,7 +26,11 @@ fn scene() -> impl Strategy<Value = (f64, f64, Vector3<f64>)> {
     let slopes = prop::array::uniform2(-1.0..1.0_f64);
     (-3.0..3.0_f64, -1.5..1.5_f64, slopes, 0.5..20.0_f64).prop_map(|(pan, tilt, slopes, depth)| {
         let r = pedestal().rotation(&GimbalState::at_rest(pan, tilt)).matrix;
-        (pan, tilt, r * Vector3::new(depth, depth * slopes[0], depth * slopes[1]))
+        (
+            pan,
+            tilt,
+            r * Vector3::new(depth, depth * slopes[0], depth * slopes[1]),
+        )
     })
 }
 

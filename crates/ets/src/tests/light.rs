@@ -4,13 +4,16 @@ use proptest::prelude::*;
 const GREEN: f64 = 532e-9;
 
 fn attenuation_per_km(visibility_km: f64, law: VisibilityLaw) -> f64 {
-    let air = Atmosphere { visibility: 1e3 * visibility_km, law };
+    let air = Atmosphere {
+        visibility: 1e3 * visibility_km,
+        law,
+    };
     1e3 * air.attenuation(GREEN)
 }
 
-/// Values of Kim, McArthur, Korevaar (2001) at 532 nm, worked out by hand, to their printed digits.
+/// The laws of Kim, McArthur, Korevaar (2001) at 532 nm, worked out by hand, to the printed digits.
 #[test]
-fn thesis_attenuation_by_visibility_at_532_nm() {
+fn exact_attenuation_by_visibility_at_532_nm() {
     use VisibilityLaw::{Kim, Kruse};
     for (visibility, law, expected, digit) in [
         (23.0, Kim, 0.177_606, 5e-7),
@@ -21,9 +24,15 @@ fn thesis_attenuation_by_visibility_at_532_nm() {
         (0.3, Kruse, 13.211, 5e-4),
     ] {
         let found = attenuation_per_km(visibility, law);
-        assert!((found - expected).abs() < digit, "{visibility} km {law:?}: {found}");
+        assert!(
+            (found - expected).abs() < digit,
+            "{visibility} km {law:?}: {found}"
+        );
     }
-    let clear = Atmosphere { visibility: 23e3, law: Kim };
+    let clear = Atmosphere {
+        visibility: 23e3,
+        law: Kim,
+    };
     assert!((clear.transmittance(GREEN, 100.0) - 0.982_396).abs() < 5e-7);
 }
 
@@ -32,7 +41,7 @@ fn thesis_attenuation_by_visibility_at_532_nm() {
 fn exact_two_per_cent_at_the_visibility() {
     for law in [VisibilityLaw::Kim, VisibilityLaw::Kruse] {
         for visibility in [100.0, 800.0, 3e3, 20e3, 80e3] {
-            let left = Atmosphere { visibility, law }.transmittance(550e-9, visibility);
+            let left: f64 = Atmosphere { visibility, law }.transmittance(550e-9, visibility);
             // 3.912 is −ln 0.02 to four digits.
             assert!((left / 0.02 - 1.0).abs() < 1e-4);
         }
@@ -97,7 +106,10 @@ fn exact_diffraction_limited_divergence() {
         ..Station::nominal().beam
     };
     assert!((beam.quality() - 1.0).abs() < 1e-14);
-    let far = beam.through(&Station::nominal().atmosphere).radius_squared(1e4).sqrt();
+    let far = beam
+        .through(&Station::nominal().atmosphere)
+        .radius_squared(1e4)
+        .sqrt();
     // Next to the waist's 1 mm in quadrature: (w_0/θz)²/2 = 2e-7.
     assert!((far / (1.693_408_6e-4 * 1e4) - 1.0).abs() < 5e-7, "{far}");
 }

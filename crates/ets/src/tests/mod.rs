@@ -22,7 +22,10 @@ fn free_gimbal() -> Gimbal<f64> {
         minimum: -1e6,
         maximum: 1e6,
     };
-    Gimbal { pan: axis, tilt: axis }
+    Gimbal {
+        pan: axis,
+        tilt: axis,
+    }
 }
 
 fn pedestal() -> Pedestal<f64> {

@@ -21,7 +21,10 @@ fn exact_head_on() {
     // Who looks north at the face has east on the right and up above.
     assert!((face.axes.column(0) - Vector3::y()).norm() < 1e-15);
     assert!((face.axes.column(1) + Vector3::z()).norm() < 1e-15);
-    let ray = Ray { origin: Vector3::new(0.0, 0.03, -0.04), direction: Vector3::x() };
+    let ray = Ray {
+        origin: Vector3::new(0.0, 0.03, -0.04),
+        direction: Vector3::x(),
+    };
     let link = face.under(&ray);
     assert!((link.range - (25.0_f64 + 0.0025).sqrt()).abs() < 1e-14);
     assert!(link.incidence < 1e-15 && (link.cos_incidence - 1.0).abs() < 1e-15 && link.facing == 1.0);
@@ -33,9 +36,15 @@ fn exact_head_on() {
 fn exact_oblique() {
     let angle = 30.0_f64.to_radians();
     let r_wb = EulerAngles::level(std::f64::consts::PI + angle).rotation().matrix;
-    let receiver = Receiver { offset: [0.0; 3], ..receiver([1.0, 0.0, 0.0]) };
+    let receiver = Receiver {
+        offset: [0.0; 3],
+        ..receiver([1.0, 0.0, 0.0])
+    };
     let face = receiver.on(&Vector3::new(5.0, 0.0, 0.0), &r_wb);
-    let link = face.under(&Ray { origin: Vector3::new(0.0, 0.1, -0.2), direction: Vector3::x() });
+    let link = face.under(&Ray {
+        origin: Vector3::new(0.0, 0.1, -0.2),
+        direction: Vector3::x(),
+    });
     assert!((link.incidence - angle).abs() < 1e-14);
     assert!((link.spot - Vector2::new(0.1 / angle.cos(), 0.2)).norm() < 1e-14);
 }
@@ -53,9 +62,17 @@ fn exact_faces_up_and_down_have_axes() {
 fn exact_light_from_behind_is_flagged_and_finite() {
     let face = receiver([1.0, 0.0, 0.0]).on(&Vector3::new(5.0, 0.0, 0.0), &Matrix3::identity());
     for direction in [Vector3::x(), -Vector3::x(), Vector3::y()] {
-        let link = face.under(&Ray { origin: Vector3::zeros(), direction });
+        let link = face.under(&Ray {
+            origin: Vector3::zeros(),
+            direction,
+        });
         assert_eq!(link.facing, 0.0);
-        assert!(link.spot.iter().all(|v| v.is_finite() && v.abs() <= 6.0 / GRAZING), "{link:?}");
+        assert!(
+            link.spot
+                .iter()
+                .all(|v| v.is_finite() && v.abs() <= 6.0 / GRAZING),
+            "{link:?}"
+        );
     }
 }
 
