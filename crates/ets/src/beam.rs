@@ -86,6 +86,12 @@ impl<R: Real> Light<R> {
         self.waist_squared + self.divergence_squared * z * z
     }
 
+    /// `w'/w = θ²z/w²`, 1/m: how far a streamline leaves the axis per length and per distance from it.
+    #[inline(always)]
+    pub fn spread(&self, z: R) -> R {
+        self.divergence_squared * z / self.radius_squared(z)
+    }
+
     /// Irradiance across the beam at the squared distance ρ² (m²) from the axis and z (m) along it, W/m².
     #[inline(always)]
     pub fn irradiance(&self, rho_squared: R, z: R) -> R {

@@ -246,20 +246,3 @@ impl<R: Real> Flat<R> for GimbalState<R> {
         }
     }
 }
-
-impl<R: Real> Flat<R> for GimbalStateRate<R> {
-    const LEN: usize = 4;
-
-    fn write(&self, out: &mut [R]) {
-        out[..4].copy_from_slice(&[self.pan, self.tilt, self.pan_rate, self.tilt_rate]);
-    }
-
-    fn read(values: &[R]) -> Self {
-        Self {
-            pan: values[0],
-            tilt: values[1],
-            pan_rate: values[2],
-            tilt_rate: values[3],
-        }
-    }
-}

@@ -62,7 +62,7 @@ impl<R: Real> PointMotion<R> {
 }
 
 impl<R: Real> ImageKinematics<R> {
-    /// `r_C = f [y/x, z/x]`, px, finite everywhere (see [`crate::camera`]).
+    /// `r_C = f [y/x, z/x]`, px, finite everywhere (see [`crate::MAX_SLOPE`]).
     #[inline(always)]
     pub fn image(&self, p_c: &Vector3<R>) -> Vector2<R> {
         let p = in_front(p_c);

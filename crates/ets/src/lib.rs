@@ -8,7 +8,7 @@
 //! | tracker | `u = q̇ + τ L⁻¹(v − b)` | [`ErrorDynamics`], [`Tracker`] |
 //! | sampling, delay, loss, search | fading-memory filter of the line of sight | [`Sight`], [`FrameClock`], [`Search`] |
 //! | beam in air | `I = 2P/(πw²) exp(−2ρ²/w² − βz)` | [`Beam`], [`Light`], [`Atmosphere`] |
-//! | receiver | range, incidence, spot offset; `P = ∫ I cos α dA` | [`Receiver`], [`Face`], [`PowerBudget`] |
+//! | receiver | range, incidence, spot offset; `P = ∫ I (d + ρ w'/w)·(−n) dA` | [`Receiver`], [`Face`], [`PowerBudget`] |
 //! | all together | one pure step | [`Ets`] |
 //! | parameters | a TOML file with a source beside each number | [`Station`] |
 //!

@@ -1,6 +1,9 @@
 //! Power on the receiver and past it, by quadrature over the face.
 //!
-//! `P_in = ∫ I(ρ, z) cos α dA` over the face, `P_missed = P exp(−βR) − P_in`, `P_el = η P_in`.
+//! `P_in = ∫ I(ρ, z) (d + ρ w'/w)·(−n) dA` over the face, `P_missed = P exp(−βR) − P_in`, `P_el = η P_in`.
+//!
+//! Light flows along the streamlines `ρ ∝ w(z)` of the Gaussian beam, in the direction `d + ρ w'/w`: so its flux through any surface
+//! across the whole beam is the same, and nothing is lost or won by an oblique one. On the axis this is `I cos α`.
 //!
 //! A point of the face at `x = c + x_1 e_1 + x_2 e_2` has `z = (x − o)·d`, `ρ² = |x − o|² − z²`. On the plane ρ² is the quadratic form
 //! `Δᵀ Q Δ` of the distance Δ from the spot, `Q = I − δδᵀ`, `δ = [d·e_1, d·e_2]`: an elliptic footprint, longer by `1/cos α` along δ.
@@ -10,8 +13,8 @@
 //! 20 × 20 points along its sides. A disc takes 32 × 20 along axes turned so that the spot lies on the first, rows at
 //! `x_2 = a sin t`, which makes the chord `2a cos t` smooth.
 //!
-//! Assumptions: parallel light (θ ≪ 1), so `cos α` is that of the axis all over the face and w does not change over the
-//! footprint's depth by more than a few per cent; a convex face without shadows. No light from behind: then `P_in = 0`.
+//! Assumptions: a footprint over whose depth w changes by a few per cent at most (`w' tan α` up to 0.01, the reach is that of w on the axis);
+//! the same attenuation for all of the face; a flat face without shadows. No light from behind: then `P_in = 0`.
 
 use crate::beam::{Light, Ray};
 use crate::quadrature::{Interval, RULE_20, RULE_32, integrate};
@@ -88,7 +91,7 @@ impl<'a, R: Real> Footprint<'a, R> {
         around(self.spot.y, self.reach * sqrt(self.q.m11) / self.cos, bound)
     }
 
-    /// `∫ I cos α dx_1` over the chord of half-length `bound` at `x_2`, W/m.
+    /// The integral along the chord of half-length `bound` at `x_2`, W/m.
     #[inline(always)]
     fn row(&self, x_2: R, bound: R) -> R {
         let middle = self.spot.x - self.q.m12 / self.q.m11 * (x_2 - self.spot.y);
@@ -96,8 +99,10 @@ impl<'a, R: Real> Footprint<'a, R> {
         integrate(&RULE_20, lit, |x_1| {
             let x = self.centre + Vector3::new(x_1, x_2, R::zero());
             let z = x.dot(&self.along);
-            let rho_squared = (x - self.along * z).norm_squared();
-            self.light.irradiance(rho_squared, z) * self.cos
+            let rho = x - self.along * z;
+            // −n of the streamline's direction per unit of the axis.
+            let slant = self.cos - rho.z * self.light.spread(z);
+            self.light.irradiance(rho.norm_squared(), z) * slant
         })
     }
 }
@@ -125,7 +130,7 @@ impl<R: Real> Light<R> {
         }
     }
 
-    /// `∫ I cos α dA`, W.
+    /// `∫ I (d + ρ w'/w)·(−n) dA`, W.
     #[inline(always)]
     fn on_face(&self, ray: &Ray<R>, face: &Face<R>, aperture: &Aperture<R>, link: &LinkGeometry<R>) -> R {
         let cos = link.cos_incidence.simd_max(constant(GRAZING));

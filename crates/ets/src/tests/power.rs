@@ -121,6 +121,23 @@ proptest! {
     }
 }
 
+proptest! {
+    /// Nothing is lost through an oblique face wider than the beam, and half passes an edge that halves it, however the beam diverges: its
+    /// streamlines carry their power along.
+    #[test]
+    fn exact_oblique_faces_conserve_power(yaw in -1.0..1.0_f64, divergence in 0.0..0.005_f64) {
+        let light = Light { divergence_squared: divergence * divergence, ..collimated(0.02) };
+        let through = |e: f64, half_width: f64| {
+            let mut face = face(yaw, 0.0);
+            face.centre -= face.axes.column(0) * e;
+            received(&light, &ray([0.0; 2]), &face, &Aperture::Rectangle { half_width, half_height: 0.3 })
+        };
+        prop_assert!((through(0.0, 0.4) - 1.0).abs() < PROMISED, "{}", through(0.0, 0.4));
+        // The spot on the edge at e_1 = half the width.
+        prop_assert!((through(0.4, 0.4) - 0.5).abs() < PROMISED, "{}", through(0.4, 0.4));
+    }
+}
+
 #[test]
 fn exact_no_light_from_behind() {
     let budget = collimated(0.1).budget(
@@ -181,9 +198,12 @@ fn by_midpoints(light: &Light<f64>, ray: &Ray<f64>, face: &Face<f64>, half: [f64
             let at = |k: i32, half: f64| half * (2.0 * (f64::from(k) + 0.5) / f64::from(n) - 1.0);
             let x = Vector2::new(at(i, half[0]), at(j, half[1]));
             let q = face.centre + face.axes * Vector3::new(x.x, x.y, 0.0) - ray.origin;
-            sum += light.irradiance(q.cross(&ray.direction).norm_squared(), q.dot(&ray.direction));
+            let (d, n) = (ray.direction, face.axes.column(2));
+            let z = q.dot(&d);
+            // The streamline: back to where it left, the distance from the axis shrinks as the radius does.
+            let flow = d + (q - d * z) * light.spread(z);
+            sum += light.irradiance(q.cross(&d).norm_squared(), z) * -flow.dot(&n);
         }
     }
-    let cos = -ray.direction.dot(&face.axes.column(2));
-    sum * cos.max(0.0) * 4.0 * half[0] * half[1] / f64::from(n * n)
+    sum * 4.0 * half[0] * half[1] / f64::from(n * n)
 }
