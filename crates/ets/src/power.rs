@@ -14,7 +14,7 @@
 //! `x_2 = a sin t`, which makes the chord `2a cos t` smooth.
 //!
 //! Assumptions: a footprint over whose depth w changes by a few per cent at most (`w' tan α` up to 0.01, the reach is that of w on the axis);
-//! the same attenuation for all of the face; a flat face without shadows. No light from behind: then `P_in = 0`.
+//! the air takes from all rays what it takes over the range R; a flat face without shadows. No light from behind: then `P_in = 0`.
 
 use crate::beam::{Light, Ray};
 use crate::quadrature::{Interval, RULE_20, RULE_32, integrate};
@@ -34,7 +34,7 @@ const RIM: f64 = 1e-12;
 pub struct PowerBudget<R> {
     /// Optical power at the emitter.
     pub emitted: R,
-    /// Optical power that reaches the receiver's range.
+    /// Optical power that reaches the range of the receiver's centre.
     pub transmitted: R,
     /// Optical power on the receiver's face.
     pub received: R,
@@ -120,7 +120,12 @@ impl<R: Real> Light<R> {
         let transmitted = self.power_at(link.range);
         let lit = is_set(link.facing);
         // A face that is not lit is integrated as one that is, and the result dropped: lanes may disagree.
-        let received = R::zero().select(!lit, self.on_face(ray, face, aperture, &link));
+        let arriving = Self {
+            power: transmitted,
+            attenuation: R::zero(),
+            ..*self
+        };
+        let received = R::zero().select(!lit, arriving.on_face(ray, face, aperture, &link));
         PowerBudget {
             emitted: self.power,
             transmitted,

@@ -46,9 +46,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         azimuth_deg: -58.0,
         elevation_deg: 14.0,
         scale: 108.0,
-        origin: at(205.0, 268.0),
+        origin: at(225.0, 228.0),
     };
-    let mut sketch = Sketch::new(660.0, 360.0, eye);
+    let mut sketch = Sketch::new(660.0, 312.0, eye);
     let position = Vector3::new(1.6, 3.0, -1.75);
     let towards_station = EulerAngles::level(glyphs::heading_home(&position))
         .rotation()
@@ -56,26 +56,26 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let face = ets.receiver.on(&position, &towards_station);
     let gimbal = glyphs::looking_at(&ets, &face.centre);
     let diagram = &mut sketch.diagram;
-    diagram.hatched(at(28.0, 330.0), at(640.0, 330.0));
+    diagram.hatched(at(28.0, 290.0), at(640.0, 290.0));
     let supply = diagram.block(
         Block {
-            centre: at(82.0, 296.0),
+            centre: at(84.0, 262.0),
             size: (96.0, 46.0),
             fill: GREEN_TINT,
         },
         "ground\nsupply",
     );
-    diagram.arrow(&[supply.right(), at(186.0, supply.centre.y)], ARROW);
-    diagram.text(at(156.0, 288.0), "power");
+    diagram.arrow(&[supply.right(), at(221.0, supply.centre.y)], ARROW);
+    diagram.text(at(160.0, 278.0), "power");
     glyphs::quadrotor(&mut sketch, &vehicle, position, &towards_station, MAGNIFIED);
     glyphs::face(&mut sketch, &face, &ets.receiver.aperture);
     let ray = ets.ray(&gimbal);
     let start = ray.origin + ray.direction * 0.32;
     sketch.arrow(&[start, face.centre], Look::solid(GREEN, 3.0));
     glyphs::station(&mut sketch, &ets, &gimbal, 0.3, 0.5);
-    sketch.label(&ray.origin, (-58.0, -22.0), "laser emitter and camera");
+    sketch.label(&ray.origin, (-88.0, -26.0), "laser emitter\nand camera");
     sketch.label(&((start + face.centre) / 2.0), (-52.0, -12.0), "beam, 532 nm");
-    sketch.label(&position, (52.0, -78.0), "airborne vehicle");
+    sketch.label(&position, (34.0, -52.0), "airborne vehicle");
     sketch.label(&face.centre, (-8.0, 62.0), "photovoltaic sensor");
     Ok(Drawing::picture(sketch.finish()))
 }

@@ -44,9 +44,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         azimuth_deg: -62.0,
         elevation_deg: 16.0,
         scale: 118.0,
-        origin: at(150.0, 330.0),
+        origin: at(110.0, 278.0),
     };
-    let mut sketch = Sketch::new(680.0, 420.0, eye);
+    let mut sketch = Sketch::new(650.0, 385.0, eye);
     let position = Vector3::new(1.5, 3.0, -1.9);
     let r_wb = EulerAngles::new(0.0, 0.0, glyphs::heading_home(&position) + 0.5)
         .rotation()
@@ -59,7 +59,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let normal = face.axes.column(2).into_owned();
 
     sketch.axes(
-        Vector3::new(-0.7, -0.6, 0.25),
+        Vector3::new(1.2, 2.2, -0.3),
         &Matrix3::identity(),
         0.55,
         ["*x*_{W}", "*y*_{W}", "*z*_{W}"],
@@ -67,13 +67,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     );
     glyphs::quadrotor(&mut sketch, &vehicle, position, &r_wb, MAGNIFIED);
     glyphs::face(&mut sketch, &face, &ets.receiver.aperture);
-    sketch.axes(
-        position,
-        &r_wb,
-        0.52,
-        ["", "*y*_{B}", "*z*_{B}"],
-        Look::solid(BLUE, 1.4),
-    );
+    sketch.axes(position, &r_wb, 0.52, ["", "", "*z*_{B}"], Look::solid(BLUE, 1.4));
+    let right = r_wb.column(1).into_owned();
+    sketch.arrow(&[position, position + right * 0.52], Look::solid(BLUE, 1.4));
+    sketch.label(&(position + right * 0.52), (-4.0, 20.0), "*y*_{B}");
     sketch.line(&[ray.origin, face.centre], CONSTRUCTION);
     sketch.arrow(
         &[ray.origin + ray.direction * 0.34, spot],
@@ -91,7 +88,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     sketch.label(&(ray.origin + ray.direction * 0.75), (-18.0, -8.0), "*x*_{E}");
 
     sketch.arrow(&[face.centre, face.centre + normal * 1.15], ARROW);
-    sketch.label(&(face.centre + normal * 1.15), (-2.0, 18.0), "*n*, *x*_{B}");
+    sketch.label(&(face.centre + normal * 1.15), (-26.0, 0.0), "*n*, *x*_{B}");
     // The angle of incidence, at the spot between the incoming beam and a parallel to the normal.
     sketch.line(&[spot, spot + normal * 0.95], CONSTRUCTION);
     let back = -ray.direction;
@@ -100,12 +97,12 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         &arc(spot, (back, across), 0.72, (0.0, link.incidence)),
         Look::solid(INK, 1.2),
     );
-    sketch.label(&(spot + (back + normal).normalize() * 0.86), (0.0, 5.0), "*α*");
+    sketch.label(&(spot + (back + normal).normalize() * 0.86), (23.0, -5.0), "*α*");
     sketch.arrow(&[face.centre, spot], Look::solid(VERMILION, 2.0));
     sketch.label(&((face.centre + spot) / 2.0), (16.0, 6.0), "*e*_{s}");
     sketch.label(&(face.centre * 0.5), (14.0, 20.0), "*R*");
-    sketch.label(&position, (92.0, -66.0), "quadrotor");
-    sketch.label(&(ray.origin + Vector3::z() * 0.55), (64.0, 8.0), "ETS");
+    sketch.label(&position, (86.0, 70.0), "quadrotor");
+    sketch.label(&(ray.origin + Vector3::z() * 0.55), (-62.0, -4.0), "ETS");
     sketch.label(&((ray.origin + spot) / 2.0), (-30.0, -10.0), "beam");
     Ok(Drawing::picture(sketch.finish()))
 }

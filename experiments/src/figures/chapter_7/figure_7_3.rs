@@ -25,19 +25,19 @@ pub(super) const ITEM: Item = Item {
 };
 
 /// The angles drawn, rad.
-const PAN: f64 = 0.75;
+const PAN: f64 = 1.0;
 const TILT: f64 = 0.5;
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let station = load_station(context, NOMINAL_STATION)?;
     let ets = Ets::<f64>::new(&station);
     let eye = Eye {
-        azimuth_deg: 20.0,
-        elevation_deg: 24.0,
+        azimuth_deg: -8.0,
+        elevation_deg: 26.0,
         scale: 150.0,
-        origin: at(215.0, 215.0),
+        origin: at(150.0, 160.0),
     };
-    let mut sketch = Sketch::new(520.0, 400.0, eye);
+    let mut sketch = Sketch::new(430.0, 370.0, eye);
     let gimbal = GimbalState::at_rest(PAN, TILT);
     let r_we = ets.pedestal.rotation(&gimbal).matrix;
     let level = ets.pedestal.rotation(&GimbalState::at_rest(PAN, 0.0)).matrix;
@@ -70,7 +70,11 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         &arc(origin, (north, Vector3::y()), 0.95, (0.0, PAN)),
         Look::solid(VERMILION, 1.6),
     );
-    sketch.label(&(panned * 0.95 + north * 0.3), (-6.0, -2.0), "*ψ*_{E}");
+    sketch.label(
+        &((panned + north * 1.4).normalize() * 0.95),
+        (-20.0, -6.0),
+        "*ψ*_{E}",
+    );
     sketch.arrow(
         &arc(origin, (panned, -Vector3::z()), 1.1, (0.0, TILT)),
         Look::solid(VERMILION, 1.6),

@@ -35,9 +35,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         azimuth_deg: -48.0,
         elevation_deg: 18.0,
         scale: 148.0,
-        origin: at(82.0, 238.0),
+        origin: at(70.0, 180.0),
     };
-    let mut sketch = Sketch::new(640.0, 400.0, eye);
+    let mut sketch = Sketch::new(570.0, 300.0, eye);
     let on_plane = |r: Vector2<f64>, depth: f64| {
         Vector3::new(1.0, r.x / camera.focal_length, r.y / camera.focal_length) * depth
     };
@@ -65,24 +65,26 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         Look::solid(INK, 1.2),
     );
     sketch.arrow(&[principal, Vector3::new(PLANE, 0.0, 0.5)], Look::solid(INK, 1.2));
-    sketch.label(&Vector3::new(PLANE, 0.62, 0.0), (12.0, -4.0), "*r*_{1}");
-    sketch.label(&Vector3::new(PLANE, 0.0, 0.5), (-12.0, 8.0), "*r*_{2}");
+    sketch.label(&Vector3::new(PLANE, 0.62, 0.0), (-8.0, -10.0), "*r*_{1}");
+    sketch.label(&Vector3::new(PLANE, 0.0, 0.5), (-14.0, -2.0), "*r*_{2}");
     sketch.arrow(&[principal, image], Look::solid(VERMILION, 2.0));
     sketch.label(&image, (-4.0, 20.0), "*r*_{C}");
     sketch.line(&[centre, image], Look::solid(GREEN, 1.8));
+    sketch.arrow(&[centre, Vector3::x() * 0.62], Look::solid(BLUE, 2.0));
+    sketch.label(&(Vector3::x() * 0.62), (-14.0, 15.0), "*x*_{C}");
     sketch.axes(
         centre,
         &Matrix3::identity(),
         0.62,
-        ["*x*_{C}", "*y*_{C}", "*z*_{C}"],
+        ["", "*y*_{C}", "*z*_{C}"],
         Look::solid(BLUE, 2.0),
     );
     dot(&mut sketch, &eye, &target, "#1a1a1a");
     dot(&mut sketch, &eye, &image, VERMILION);
     dot(&mut sketch, &eye, &principal, "#1a1a1a");
     sketch.label(&target, (10.0, 22.0), "target *p*_{C}");
-    sketch.label(&centre, (-18.0, 18.0), "centre");
-    sketch.label(&(Vector3::x() * 1.12), (-2.0, -7.0), "*f*");
+    sketch.label(&centre, (-24.0, -12.0), "centre");
+    sketch.label(&(Vector3::x() * 1.3), (0.0, 16.0), "*f*");
     sketch.label(&corners[1], (26.0, -8.0), "image plane");
     sketch.label(&Vector3::new(DEPTH, target.y / 2.0, 0.0), (2.0, -8.0), "*y*");
     sketch.label(&Vector3::new(DEPTH, target.y, target.z / 2.0), (12.0, 2.0), "*z*");

@@ -1,5 +1,6 @@
 //! Figure 7.6: rotation of the energy transmission system with visual feedback.
 
+use super::tracking::{self, Row, START, track};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
@@ -8,8 +9,8 @@ use crate::plot::figure::Legends;
 use crate::plot::style::{INK, Look};
 use crate::plot::{Figure, Panel, reference_style, series_style};
 use crate::station::{NOMINAL_STATION, load_station};
-use ets::{ErrorDynamics, Ets, EtsInput, EtsState, FrameClock};
-use nalgebra::{Vector2, Vector3};
+use ets::{ErrorDynamics, Ets, FrameClock};
+use nalgebra::Vector2;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -26,27 +27,13 @@ pub(super) const ITEM: Item = Item {
 
 const ENDS: Claim = Claim::holds("target ends at the image centre");
 
-/// The image of the target at the start, px, from the centre.
-const START: [f64; 2] = [200.0, 100.0];
-/// Range of the target, m; without influence on its image.
-const RANGE_M: f64 = 5.0;
-const STEP_S: f64 = 1e-3;
-const STEPS: u64 = 3000;
 /// Within this the target is at the centre, px: what the designed response leaves, (1 + t/T) e^(−t/T) of 224 px at 15 T is 1e-3 px.
 const AT_CENTRE_PX: f64 = 0.01;
-
-/// A sample of the run.
-struct Row {
-    t: f64,
-    state: EtsState<f64>,
-    image: Vector2<f64>,
-    visible: bool,
-}
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let station = load_station(context, NOMINAL_STATION)?;
     let ets = Ets::<f64>::new(&station);
-    let clock = FrameClock::new(STEP_S, station.frames.rate, station.frames.latency)?;
+    let clock = FrameClock::new(tracking::STEP_S, station.frames.rate, station.frames.latency)?;
     let rows = track(&ets, &clock);
     let column = |f: fn(&Row) -> f64| rows.iter().map(f).collect::<Vec<f64>>();
     let t = column(|r| r.t);
@@ -134,28 +121,4 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             visible && end < AT_CENTRE_PX,
             format!("{end:.1e} px from the centre after 3 s, from {:.0} px", Vector2::from(START).norm()),
         ))
-}
-
-fn track(ets: &Ets<f64>, clock: &FrameClock) -> Vec<Row> {
-    let mut state = ets.at_rest(0.0, 0.0);
-    let r_we = ets.pedestal.rotation(&state.gimbal).matrix;
-    let target: Vector3<f64> = ets.pedestal.origin() + r_we * ets.camera.direction(&START.into()) * RANGE_M;
-    let input = EtsInput {
-        target,
-        noise: Vector2::zeros(),
-    };
-    let mut rows = Vec::new();
-    for n in 0..=STEPS {
-        if n % 5 == 0 {
-            let view = ets.view(&state.gimbal, &target);
-            rows.push(Row {
-                t: n as f64 * clock.step_s(),
-                state,
-                image: view.point,
-                visible: view.visible == 1.0,
-            });
-        }
-        state = ets.step(clock, n, &state, &input);
-    }
-    rows
 }

@@ -7,7 +7,9 @@ mod figure_7_2;
 mod figure_7_3;
 mod figure_7_5;
 mod figure_7_6;
+mod growth;
 mod overfill;
+mod tracking;
 
 /// The items of this chapter.
 pub(super) const ITEMS: &[Item] = &[
