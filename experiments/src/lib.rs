@@ -22,6 +22,7 @@ pub mod item;
 pub mod output;
 pub mod reference;
 pub mod run;
+pub mod station;
 pub mod summary;
 
 pub use quad_plot as plot;
