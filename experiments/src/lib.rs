@@ -22,5 +22,6 @@ pub mod item;
 pub mod output;
 pub mod plot;
 pub mod reference;
+mod rotor_bench;
 pub mod run;
 pub mod summary;
