@@ -2,6 +2,7 @@
 
 pub mod estimate;
 pub mod laboratory;
+pub mod measurement;
 pub mod regression;
 pub mod residual;
 
