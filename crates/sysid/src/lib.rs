@@ -3,6 +3,7 @@
 pub mod estimate;
 pub mod laboratory;
 pub mod measurement;
+pub mod recorded;
 pub mod regression;
 pub mod residual;
 
