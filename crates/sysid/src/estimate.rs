@@ -184,6 +184,14 @@ pub enum Warning {
         /// Lags tested.
         lags: usize,
     },
+    /// The residuals are correlated, and the intervals have been widened for it.
+    #[error("the residuals are correlated: intervals hold for correlation over {lags} data, up to {factor:.1} times wider")]
+    IntervalsWidened {
+        /// Data over which correlation was taken into account.
+        lags: usize,
+        /// Largest factor on a standard error.
+        factor: f64,
+    },
     /// The iteration stopped before a minimum was found.
     #[error("the fit did not converge within {evaluations} evaluations: the numbers are the best found")]
     NotConverged {
