@@ -96,7 +96,7 @@ pub struct Goodness {
     pub largest_residual: f64,
     /// `R² = 1 − Σ r² / Σ (y − ȳ)²`; `None` if the data are constant.
     pub r_squared: Option<f64>,
-    /// `n − p`.
+    /// `n − p`; fewer where intervals were widened for correlated residuals.
     pub degrees_of_freedom: f64,
 }
 
@@ -185,7 +185,9 @@ pub enum Warning {
         lags: usize,
     },
     /// The residuals are correlated, and the intervals have been widened for it.
-    #[error("the residuals are correlated: intervals hold for correlation over {lags} data, up to {factor:.1} times wider")]
+    #[error(
+        "the residuals are correlated: intervals hold for correlation over {lags} data, up to {factor:.1} times wider"
+    )]
     IntervalsWidened {
         /// Data over which correlation was taken into account.
         lags: usize,

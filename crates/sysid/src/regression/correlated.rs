@@ -52,7 +52,9 @@ impl<const N: usize> Fit<N> {
         let bread = self.covariance / variance;
         let covariance = bread * middle * bread;
         let freedom = self.goodness.degrees_of_freedom;
-        let freedom = freedom.min(BARTLETT_FREEDOM * n as f64 / lags.max(1) as f64).max(1.0);
+        let freedom = freedom
+            .min(BARTLETT_FREEDOM * n as f64 / lags.max(1) as f64)
+            .max(1.0);
         let mut factor = 1.0_f64;
         for (i, estimate) in self.parameters.iter_mut().enumerate() {
             let widened = covariance[(i, i)].max(0.0).sqrt();
@@ -72,7 +74,9 @@ impl<const N: usize> Fit<N> {
 /// `Σ_t g_t g_{t−k}ᵀ`.
 fn autocovariance<const N: usize>(scores: &[SVector<f64, N>], k: usize) -> SMatrix<f64, N, N> {
     let pairs = scores[k..].iter().zip(scores);
-    pairs.fold(SMatrix::zeros(), |sum, (now, before)| sum + now * before.transpose())
+    pairs.fold(SMatrix::zeros(), |sum, (now, before)| {
+        sum + now * before.transpose()
+    })
 }
 
 /// L of Andrews' rule for whatever is most correlated; at most a quarter of the series.
@@ -109,7 +113,10 @@ mod tests {
             .map(|_| {
                 x = correlation * x + fresh * next();
                 noise = correlation * noise + fresh * next();
-                Row { regressors: [1.0, x], y: 1.0 + 2.0 * x + noise }
+                Row {
+                    regressors: [1.0, x],
+                    y: 1.0 + 2.0 * x + noise,
+                }
             })
             .collect()
     }
@@ -120,7 +127,11 @@ mod tests {
             let rows = rows(seed, correlation, 1500);
             let slopes: Vec<[f64; 2]> = rows.iter().map(|r| r.regressors).collect();
             let fit = linear(&rows).unwrap();
-            let fit = if widened { fit.with_correlated_errors(&slopes) } else { fit };
+            let fit = if widened {
+                fit.with_correlated_errors(&slopes)
+            } else {
+                fit
+            };
             fit.parameters[1].interval().contains(2.0)
         });
         hits.count() as f64 / seeds as f64
@@ -142,7 +153,10 @@ mod tests {
     fn exact_zero_lags_is_the_heteroscedastic_estimator_by_hand() {
         // One regressor of ones: the mean. B = 1/n; residuals alternate, so no lag is taken: M = Σ r².
         let rows: Vec<Row<1>> = (0..40)
-            .map(|k| Row { regressors: [1.0], y: if k % 2 == 0 { 1.0 } else { -1.0 } })
+            .map(|k| Row {
+                regressors: [1.0],
+                y: if k % 2 == 0 { 1.0 } else { -1.0 },
+            })
             .collect();
         let fit = linear(&rows).unwrap();
         let plain = fit.parameters[0].standard_error;
