@@ -3,7 +3,7 @@
 //! ```text
 //! thrust       −m f_z = Σ T_i,   T = k_0 + k_1 c + k_2 c²,   lag τ on the command or on the thrust      [`ThrustFit`]
 //! roll, pitch  I ω̇ = M(t − δ),   M_x = −Σ y_i T_i,   M_y = Σ x_i T_i                                  [`InertiaFit`]
-//! yaw          I_zz ṙ = κ (1 + s/z) Q(t),   Q = −Σ s_i T_i                                              [`YawFit`]
+//! yaw          I_zz ṙ = κ (1 + s/z) Q(t − δ),   Q = −Σ s_i T_i                                           [`YawFit`]
 //! ```
 //!
 //! f is the specific force that the accelerometer measures, c the motor commands (duty, 0 to 1), T the thrust of one rotor,

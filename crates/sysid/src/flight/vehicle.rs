@@ -106,6 +106,10 @@ pub fn identify_crazyflie(
         what: "delay, s,",
         value: delay_s,
     })?;
+    let model = RotationModel {
+        delay: SensorDelay::Known(delay_s),
+        ..model
+    };
     let yaw = identify_yaw(&model, vehicle, tests.yaw.log, &tests.yaw.fit)?;
     Ok(CrazyflieIdentification {
         thrust,
@@ -229,4 +233,10 @@ pub(super) fn number(estimate: Estimate, source: &str) -> vehicle::file::Number 
         standard_error: Some(estimate.standard_error),
         ..Number::new(estimate.value, source)
     }
+}
+
+/// The Crazyflie's file.
+#[cfg(test)]
+pub(super) fn base() -> VehicleFile {
+    VehicleFile::from_toml_str(vehicle::builtin::CRAZYFLIE_TOML, "crazyflie.toml").unwrap()
 }

@@ -1,12 +1,12 @@
-//! Yaw: `I_zz ṙ = κ (Q + Q̇/z) + b − d r`, `Q = −Σ s_i T_i`, integrated over short bins.
+//! Yaw: `I_zz ṙ = κ (Q + Q̇/z) + b − d r`, `Q = −Σ s_i T_i(t − δ)`, integrated over short bins.
 //!
 //! κ is the reaction torque per thrust, m; the zero z is what spinning up takes before there is thrust; b an offset of the
 //! rotors, d the damping. Only the ratio `κ/I_zz` follows from a flight: a vehicle of twice the inertia with twice the torque turns
 //! the same. One of the two must come from a bench or the literature.
 
 use super::FlightError;
-use super::rotation::{RotationModel, lagged_thrusts};
-use super::signal::{Comparison, Segment};
+use super::rotation::{RotationModel, SensorDelay, lagged_thrusts};
+use super::signal::{Comparison, Segment, at};
 use crate::estimate::{Estimate, Fit};
 use crate::recorded::InertialLog;
 use crate::regression::{Row, linear};
@@ -73,7 +73,8 @@ impl YawFit {
     }
 }
 
-/// Identifies the yaw response over a window, s, of a flight. The model's delay and slowest motion are not used.
+/// Identifies the yaw response over a window, s, of a flight. A known delay
+/// is used, one to be identified counts as none, and slow motion stays in.
 ///
 /// # Errors
 /// A window without enough samples, constant commands, data that don't determine the response, a torque that acts the wrong way.
@@ -105,8 +106,14 @@ fn rows(model: &RotationModel, vehicle: &Vehicle, segment: &Segment<'_>) -> Vec<
         .iter()
         .map(|thrusts| -thrusts.iter().zip(&spins).map(|(t, s)| t * s).sum::<f64>())
         .collect();
-    let impulses = segment.means(|k| drive[k - start]);
-    let growth = segment.increments(|k| drive[k - start]);
+    let time = &log.time[segment.samples.clone()];
+    let delay = match model.delay {
+        SensorDelay::Known(delay) => delay,
+        SensorDelay::Identified => 0.0,
+    };
+    let earlier = |k: usize| at(time, &drive, time[k - start] - delay);
+    let impulses = segment.means(earlier);
+    let growth = segment.increments(earlier);
     let rates = segment.means(|k| log.body_rates[k].z);
     let increments = segment.increments(|k| log.body_rates[k].z);
     let lengths = segment.lengths();
