@@ -21,6 +21,7 @@ pub mod gallery;
 pub mod item;
 pub mod output;
 pub mod plot;
+pub mod recordings;
 pub mod reference;
 pub mod run;
 pub mod summary;

@@ -33,7 +33,7 @@ pub use rotation::{
 };
 pub use signal::Comparison;
 pub use thrust::{ThrustFit, ThrustSettings, identify_thrust};
-pub use vehicle::{CrazyflieIdentification, FlightTests, Part, identify_crazyflie, vehicle_file};
+pub use vehicle::{CrazyflieIdentification, FlightTests, Part, Unseen, identify_crazyflie, vehicle_file};
 pub use yaw::{YawFit, identify_yaw};
 
 use crate::regression::FitError;

@@ -7,6 +7,7 @@ use super::{FlightError, LagOn, ThrustCurve};
 use crate::estimate::Estimate;
 use crate::recorded::InertialLog;
 use crate::regression::{Row, linear};
+use crate::validation::Agreement;
 use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::derive::fit_cubic;
 use quad_dynamics::vehicle::file::{Number, PolynomialRotorFile, RotorDynamicsFile};
@@ -61,6 +62,19 @@ pub struct CrazyflieIdentification {
     pub pitch: InertiaFit,
     /// `κ/I_zz` and the zero of the yaw torque.
     pub yaw: YawFit,
+}
+
+/// Agreement on parts of flights that an identification did not see.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unseen {
+    /// Of the total thrust.
+    pub thrust: Agreement,
+    /// Of the roll acceleration.
+    pub roll: Agreement,
+    /// Of the pitch acceleration.
+    pub pitch: Agreement,
+    /// Of the yaw acceleration.
+    pub yaw: Agreement,
 }
 
 /// Identifies thrust, roll, pitch and yaw; `vehicle` gives the rotors' places and spins, nothing else.
@@ -120,6 +134,21 @@ pub fn identify_crazyflie(
 }
 
 impl CrazyflieIdentification {
+    /// How well thrust, angular accelerations without what is slow, and yaw acceleration are predicted on the parts that were
+    /// kept back.
+    ///
+    /// # Errors
+    /// Parts without enough samples, or with constant commands.
+    pub fn validate(&self, tests: &FlightTests<'_>, vehicle: &Vehicle) -> Result<Unseen, FlightError> {
+        let (up_down, moved, turned) = (&tests.thrust, &tests.roll_pitch, &tests.yaw);
+        Ok(Unseen {
+            thrust: self.thrust.compare(up_down.log, &up_down.rest)?.agreement()?,
+            roll: self.roll.compare(vehicle, moved.log, &moved.rest)?.agreement()?,
+            pitch: self.pitch.compare(vehicle, moved.log, &moved.rest)?.agreement()?,
+            yaw: self.yaw.compare(vehicle, turned.log, &turned.rest)?.agreement()?,
+        })
+    }
+
     /// The common delay δ of the inertial unit, s.
     pub fn delay_s(&self) -> f64 {
         0.5 * (self.roll.delay.value + self.pitch.delay.value)

@@ -7,6 +7,7 @@
 mod agreement;
 mod missing;
 mod replay;
+mod run;
 
 pub use agreement::{Agreement, AgreementError, ResidualStatistics, TheilShares};
 pub use missing::moment_of_velocity;

@@ -19,25 +19,18 @@
 //! see the voltage. Input limits are off, since what is recorded was flown.
 
 use super::agreement::{Agreement, AgreementError};
+use super::run::{Growth, Motion, Run};
 use crate::flight::Comparison;
 use crate::recorded::MotionCaptureFlight;
-use nalgebra::Vector3;
-use quad_dynamics::{
-    AnyQuadrotor, BuildError, Input, Level, Phenomenon, RigidBodyState, Vehicle, VehicleError,
-};
-use quad_math::FixedStep;
+use quad_dynamics::{BuildError, Level, Vehicle, VehicleError};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::Range;
 
 /// Length of the means that accelerations are compared as, s.
 pub const AVERAGE_S: f64 = 0.05;
-/// Step of the integration at most, s: a fifth of what the fastest pole of the rotors (500 1/s) would allow to RK4.
-const STEP_S: f64 = 1e-3;
 /// How long before the window the rotors are run in, s.
 const RUN_IN_S: f64 = 0.5;
-/// Rates, rad/s, beyond which a whole-flight prediction has tumbled: twice the range of a gyroscope. It ends there.
-const TUMBLED: f64 = 70.0;
 
 /// From where a prediction starts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -234,119 +227,6 @@ fn averages(time: &[f64], samples: Range<usize>) -> Vec<Range<usize>> {
         }
     }
     averages
-}
-
-/// Velocity along W and body rates.
-#[derive(Clone, Copy, Debug, Default)]
-struct Motion {
-    velocity: Vector3<f64>,
-    body_rates: Vector3<f64>,
-}
-
-#[derive(Default)]
-struct Growth(Motion);
-
-impl Growth {
-    fn add(&mut self, before: &Motion, after: &Motion) {
-        self.0.velocity += after.velocity - before.velocity;
-        self.0.body_rates += after.body_rates - before.body_rates;
-    }
-}
-
-/// A quadrotor under way.
-struct Run<'a> {
-    flight: &'a MotionCaptureFlight,
-    quadrotor: AnyQuadrotor<f64>,
-    replayed: &'a ReplayVehicle,
-    /// `V_nominal` where the level feels the voltage.
-    nominal_voltage: Option<f64>,
-}
-
-impl<'a> Run<'a> {
-    fn new(
-        flight: &'a MotionCaptureFlight,
-        level: Level,
-        replayed: &'a ReplayVehicle,
-    ) -> Result<Self, ReplayError> {
-        if level == Level::One {
-            return Err(ReplayError::Level { level });
-        }
-        let phenomena = level
-            .phenomena()
-            .without(Phenomenon::InputLimits)
-            .without(Phenomenon::VoltageSag);
-        let vehicle = &replayed.vehicle;
-        let nominal_voltage = match level {
-            Level::Five => Some(vehicle.require_battery("a replay at level 5")?.nominal_voltage),
-            _ => None,
-        };
-        let quadrotor = AnyQuadrotor::hovering(level, vehicle, &phenomena, Vector3::zeros(), 0.0)?;
-        Ok(Self {
-            flight,
-            quadrotor,
-            replayed,
-            nominal_voltage,
-        })
-    }
-
-    /// Puts the body where it was measured to be.
-    fn start_anew(&mut self, k: usize) {
-        let attitude = self.flight.attitude[k];
-        let body = RigidBodyState {
-            position: self.flight.position[k],
-            velocity: attitude.conjugate().rotate(&self.flight.velocity[k]),
-            attitude,
-            body_rates: self.flight.inertial.body_rates[k],
-        };
-        match &mut self.quadrotor {
-            // Refused when the run was made.
-            AnyQuadrotor::One(_) => {}
-            AnyQuadrotor::Two(q) => q.state.body = body,
-            AnyQuadrotor::Three(q) => q.state.body = body,
-            AnyQuadrotor::Four(q) => q.state.body = body,
-            AnyQuadrotor::Five(q) => q.state.body = body,
-        }
-    }
-
-    /// Flies from sample k to the next with the commands of δ ago held.
-    fn advance(&mut self, k: usize) {
-        let time = &self.flight.inertial.time;
-        let span = time[k + 1] - time[k];
-        let input = self.input(time[k] - self.replayed.delay_s);
-        let steps = (span / STEP_S).ceil().max(1.0);
-        for _ in 0..steps as usize {
-            self.quadrotor.step(FixedStep::Rk4, &input, span / steps);
-        }
-    }
-
-    /// The zeroed commands at a time, s.
-    fn input(&self, time: f64) -> Input<f64> {
-        let all = &self.flight.inertial.time;
-        let next = all.partition_point(|&t| t <= time).clamp(1, all.len() - 1);
-        let share = ((time - all[next - 1]) / (all[next] - all[next - 1])).clamp(0.0, 1.0);
-        let between = |a: f64, b: f64| a + share * (b - a);
-        let voltage = between(self.flight.voltage[next - 1], self.flight.voltage[next]);
-        let commands = &self.flight.inertial.commands;
-        let zero = self.replayed.vehicle.pwm.zero_thrust;
-        Input::still_air(std::array::from_fn(|i| {
-            let raw = between(commands[next - 1][i], commands[next][i]) + self.replayed.trim[i];
-            raw * self.nominal_voltage.map_or(1.0, |nominal| voltage / nominal) - zero
-        }))
-    }
-
-    fn motion(&self) -> Motion {
-        let flight = self.quadrotor.flight();
-        Motion {
-            velocity: flight.velocity,
-            body_rates: flight.body_rates,
-        }
-    }
-
-    fn is_upright(&self) -> bool {
-        let motion = self.motion();
-        // NaN is not below the limit either.
-        motion.body_rates.amax() < TUMBLED && motion.velocity.iter().all(|v| v.is_finite())
-    }
 }
 
 /// Series under way.
