@@ -111,6 +111,14 @@ pub enum FlightError {
         /// End of the window, s.
         to: f64,
     },
+    /// A sensor that never changes: stuck or not connected.
+    #[error("the {sensor} reads {value} throughout the window: it is stuck, and nothing follows from it")]
+    ConstantSensor {
+        /// Which, with its unit.
+        sensor: &'static str,
+        /// What it reads.
+        value: f64,
+    },
     /// A setting that must be positive.
     #[error("{what} must be positive and finite, not {value}")]
     NotPositive {

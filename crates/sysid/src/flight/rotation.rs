@@ -116,10 +116,15 @@ pub fn identify_inertia(
     window: &Range<f64>,
 ) -> Result<InertiaFit, FlightError> {
     let data = RotationData::new(axis, model, vehicle, log, window)?;
-    match model.delay {
+    let noticed = data
+        .segment
+        .inspect("gyroscope, rad/s,", |k| rate(axis, log, k))?;
+    let mut fit = match model.delay {
         SensorDelay::Known(delay) => data.with_delay(axis, model, delay),
         SensorDelay::Identified => data.with_unknown_delay(axis, model),
-    }
+    }?;
+    fit.warnings.extend(noticed);
+    Ok(fit)
 }
 
 /// The inertia as the reference identification finds it, kg m²: `M = I ω̇ + b` by least squares *on the moment*, no delay.

@@ -1,6 +1,8 @@
 //! Series of a flight: lag and delay of commands, bins, removal of what is slow.
 
 use super::FlightError;
+use crate::estimate::Warning;
+use crate::measurement::watch::{Saturation, saturation};
 use crate::recorded::InertialLog;
 use crate::validation::{Agreement, AgreementError};
 use quad_math::{Real, constant};
@@ -11,6 +13,9 @@ const RUN_IN_S: f64 = 1.0;
 
 /// Fewest bins that an identification accepts: one second at 100 Hz.
 const FEWEST_BINS: usize = 100;
+
+/// A step in time counts as a gap from this multiple of the median step: two samples lost.
+const GAP_FROM: f64 = 2.5;
 
 /// A window of a log, cut into bins.
 pub(super) struct Segment<'a> {
@@ -96,6 +101,40 @@ impl<'a> Segment<'a> {
             }
         }
         Ok(())
+    }
+
+    /// What a reader must know of the window: gaps in time, and a sensor that sat at an end of its range.
+    ///
+    /// # Errors
+    /// A sensor that never changed.
+    pub(super) fn inspect(
+        &self,
+        sensor: &'static str,
+        reading: impl Fn(usize) -> f64,
+    ) -> Result<Vec<Warning>, FlightError> {
+        let readings: Vec<f64> = self.samples.clone().map(reading).collect();
+        if readings.iter().all(|r| *r == readings[0]) {
+            return Err(FlightError::ConstantSensor {
+                sensor,
+                value: readings[0],
+            });
+        }
+        let mut steps: Vec<f64> = self.log.time[self.samples.clone()]
+            .windows(2)
+            .map(|t| t[1] - t[0])
+            .collect();
+        steps.sort_by(f64::total_cmp);
+        let longest_regular = GAP_FROM * steps[steps.len() / 2];
+        let gaps = steps.iter().filter(|step| **step > longest_regular).count();
+        let mut warnings = Vec::new();
+        if gaps > 0 {
+            let longest_s = steps[steps.len() - 1];
+            warnings.push(Warning::Gaps { gaps, longest_s });
+        }
+        if let Some(Saturation { limit, samples }) = saturation(&readings) {
+            warnings.push(Warning::Saturated { samples, limit });
+        }
+        Ok(warnings)
     }
 
     /// The bins as ranges of samples.

@@ -1,6 +1,7 @@
 //! Identification of a simulated vehicle whose numbers are known, by equations written anew here.
 
 use super::*;
+use crate::Warning;
 use crate::laboratory::generator;
 use crate::recorded::InertialLog;
 use nalgebra::Vector3;
@@ -253,6 +254,66 @@ fn exact_refusals() {
             value: 0.5,
             from: 3.0,
             to: 9.0
+        }
+    );
+}
+
+#[test]
+fn exact_gaps_saturation_and_a_stuck_sensor_are_told() {
+    let vehicle = Vehicle::crazyflie();
+    let model = RotationModel {
+        curve: CURVE,
+        lag_on: LagOn::Thrust,
+        lag_s: LAG,
+        delay: SensorDelay::Known(0.0),
+        bin_s: 0.02,
+        slowest_s: 0.5,
+    };
+    let roll = |log: &InertialLog| identify_inertia(Axis::Roll, &model, &vehicle, log, &(2.0..20.0));
+    let log = flight(1, 0.001, 0.0);
+    let told = |log: &InertialLog| roll(log).unwrap().warnings;
+    let clean = told(&log);
+    assert!(
+        !clean
+            .iter()
+            .any(|w| matches!(w, Warning::Gaps { .. } | Warning::Saturated { .. })),
+        "{clean:?}"
+    );
+    // Ten samples lost at 5 s.
+    let mut gap = log.clone();
+    gap.time.drain(5000..5010);
+    gap.specific_force.drain(5000..5010);
+    gap.body_rates.drain(5000..5010);
+    gap.commands.drain(5000..5010);
+    let found = told(&gap);
+    assert!(
+        found
+            .iter()
+            .any(|w| matches!(w, Warning::Gaps { gaps: 1, longest_s } if (longest_s - 0.011).abs() < 1e-9)),
+        "{found:?}"
+    );
+    // A gyroscope whose range ends at half of what it ought to show.
+    let mut saturated = log.clone();
+    let largest = saturated.body_rates.iter().fold(0.0_f64, |m, w| m.max(w.x));
+    for w in &mut saturated.body_rates {
+        w.x = w.x.min(0.5 * largest);
+    }
+    let found = told(&saturated);
+    assert!(
+        found
+            .iter()
+            .any(|w| matches!(w, Warning::Saturated { limit, .. } if *limit == 0.5 * largest)),
+        "{found:?}"
+    );
+    let mut stuck = log;
+    for w in &mut stuck.body_rates {
+        w.x = 0.25;
+    }
+    assert_eq!(
+        roll(&stuck).unwrap_err(),
+        FlightError::ConstantSensor {
+            sensor: "gyroscope, rad/s,",
+            value: 0.25
         }
     );
 }

@@ -84,7 +84,11 @@ pub fn identify_thrust(
 ) -> Result<ThrustFit, FlightError> {
     positive("the mass, kg,", settings.mass)?;
     let model = TotalThrust::new(log, window, settings)?;
-    let fit = nonlinear(&model.measured(), &model, START)?;
+    let noticed = model
+        .segment
+        .inspect("accelerometer, m/s²,", |k| log.specific_force[k].z)?;
+    let mut fit = nonlinear(&model.measured(), &model, START)?;
+    fit.warnings.extend(noticed);
     let lag = fit.parameters[3].value;
     if lag <= 0.0 {
         return Err(FlightError::NotPhysical {

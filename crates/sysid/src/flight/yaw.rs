@@ -87,7 +87,9 @@ pub fn identify_yaw(
     let segment = Segment::new(log, window, model.bin_s)?;
     let rows = rows(model, vehicle, &segment);
     let regressors: Vec<[f64; 4]> = rows.iter().map(|row| row.regressors).collect();
-    let fit = linear(&rows)?.with_correlated_errors(&regressors);
+    let noticed = segment.inspect("gyroscope, rad/s,", |k| log.body_rates[k].z)?;
+    let mut fit = linear(&rows)?.with_correlated_errors(&regressors);
+    fit.warnings.extend(noticed);
     let [ratio, lead, ..] = fit.values();
     if ratio <= 0.0 || lead <= 0.0 {
         let value = ratio.min(lead);
