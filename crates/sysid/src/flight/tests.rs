@@ -22,6 +22,18 @@ const ZERO: f64 = 9.0;
 /// Samples, 1 kHz, that the inertial unit is behind.
 const BEHIND: usize = 6;
 
+/// What is known of the rotors of the simulated vehicle.
+fn rotation_model(delay: SensorDelay) -> RotationModel {
+    RotationModel {
+        curve: CURVE,
+        lag_on: LagOn::Thrust,
+        lag_s: LAG,
+        delay,
+        bin_s: 0.02,
+        slowest_s: 0.5,
+    }
+}
+
 /// Commands of each motor: sines of its own, about hover, so that all axes are moved.
 fn command(motor: usize, t: f64) -> f64 {
     let m = motor as f64;
@@ -145,14 +157,7 @@ fn prop_the_intervals_of_inertia_contain_the_truth() {
     // White noise of the gyroscope ten times the real one's (0.1 deg/s), 60 flights: of a true 95 % interval 57 ± 1.7 contain
     // the truth; three standard deviations below are 52.
     let vehicle = Vehicle::crazyflie();
-    let model = RotationModel {
-        curve: CURVE,
-        lag_on: LagOn::Thrust,
-        lag_s: LAG,
-        delay: SensorDelay::Identified,
-        bin_s: 0.02,
-        slowest_s: 0.5,
-    };
+    let model = rotation_model(SensorDelay::Identified);
     let hits = (0..60).filter(|&seed| {
         let log = flight(seed, 0.0175, 0.0);
         let fit = identify_inertia(Axis::Roll, &model, &vehicle, &log, &(2.0..20.0)).unwrap();
@@ -232,14 +237,7 @@ fn exact_refusals() {
     for c in &mut exchanged.commands {
         *c = [c[1], c[0], c[3], c[2]];
     }
-    let model = RotationModel {
-        curve: CURVE,
-        lag_on: LagOn::Thrust,
-        lag_s: LAG,
-        delay: SensorDelay::Known(0.0),
-        bin_s: 0.02,
-        slowest_s: 0.5,
-    };
+    let model = rotation_model(SensorDelay::Known(0.0));
     assert!(matches!(
         identify_inertia(Axis::Pitch, &model, &vehicle, &exchanged, &(2.0..20.0)),
         Err(FlightError::NotPhysical { .. })
@@ -261,14 +259,7 @@ fn exact_refusals() {
 #[test]
 fn exact_gaps_saturation_and_a_stuck_sensor_are_told() {
     let vehicle = Vehicle::crazyflie();
-    let model = RotationModel {
-        curve: CURVE,
-        lag_on: LagOn::Thrust,
-        lag_s: LAG,
-        delay: SensorDelay::Known(0.0),
-        bin_s: 0.02,
-        slowest_s: 0.5,
-    };
+    let model = rotation_model(SensorDelay::Known(0.0));
     let roll = |log: &InertialLog| identify_inertia(Axis::Roll, &model, &vehicle, log, &(2.0..20.0));
     let log = flight(1, 0.001, 0.0);
     let told = |log: &InertialLog| roll(log).unwrap().warnings;
