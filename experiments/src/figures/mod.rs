@@ -4,6 +4,7 @@
 
 use crate::item::Item;
 
+mod appendix_c;
 mod appendix_f;
 mod appendix_g;
 mod chapter_1;
@@ -25,6 +26,7 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_5::ITEMS,
     chapter_6::ITEMS,
     chapter_7::ITEMS,
+    appendix_c::ITEMS,
     appendix_f::ITEMS,
     appendix_g::ITEMS,
 ];

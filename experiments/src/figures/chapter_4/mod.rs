@@ -3,11 +3,15 @@
 use crate::item::Item;
 
 mod characterisation;
+mod figure_4_12;
+mod figure_4_13;
 mod figure_4_7;
 mod figure_4_8;
 mod figure_4_9;
+mod flights;
 mod propeller;
 mod propeller_panels;
+mod replays;
 mod table_4_3;
 
 /// The items of this chapter.
@@ -15,5 +19,7 @@ pub(super) const ITEMS: &[Item] = &[
     figure_4_7::ITEM,
     figure_4_8::ITEM,
     figure_4_9::ITEM,
+    figure_4_12::ITEM,
+    figure_4_13::ITEM,
     table_4_3::ITEM,
 ];
