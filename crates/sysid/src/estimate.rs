@@ -206,4 +206,21 @@ pub enum Warning {
         /// The longest, s.
         longest_s: f64,
     },
+    /// The points of a line scatter across it nearly as much as along it.
+    #[error(
+        "the points scatter {scatter:.2} times as much across the line as along it: the standard errors, to first order, are too \
+         small"
+    )]
+    IndistinctLine {
+        /// Scatter across over spread along, both in units of the standard deviations.
+        scatter: f64,
+    },
+    /// The points scatter more, or less, than their stated standard deviations say.
+    #[error(
+        "the scatter is not that of the stated standard deviations (chi-squared p = {p_value:.1e}): doubt one of them"
+    )]
+    ScatterUnlikeStated {
+        /// Probability of a χ² at least as large.
+        p_value: f64,
+    },
 }

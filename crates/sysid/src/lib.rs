@@ -6,3 +6,6 @@ pub mod regression;
 pub mod residual;
 
 pub use estimate::{Convergence, Estimate, Fit, Goodness, Interval, Warning};
+
+#[cfg(test)]
+mod test_coverage;
