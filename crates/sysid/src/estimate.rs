@@ -223,4 +223,24 @@ pub enum Warning {
         /// Probability of a χ² at least as large.
         p_value: f64,
     },
+    /// Groups of repeated measurements differ by more than repetitions scatter: a systematic error.
+    #[error(
+        "groups of repeated measurements disagree with the model by more than the repetitions scatter (F test, p = {p_value:.1e}): a \
+         systematic error, which no interval contains"
+    )]
+    GroupsDisagree {
+        /// Probability of such a disagreement by chance.
+        p_value: f64,
+    },
+    /// One placing weighs more or less than the others.
+    #[error(
+        "placing {index} (counted from 0) departs from the median weight by {:.1} %: a scale at the end of its range, or a fourth \
+         point of support?", 100.0 * relative_departure
+    )]
+    OddWeight {
+        /// Place in the order of the data.
+        index: usize,
+        /// Departure over the median.
+        relative_departure: f64,
+    },
 }

@@ -1,7 +1,9 @@
 //! System identification of a quadrotor.
 
+pub mod centre_of_mass;
 pub mod estimate;
 pub mod laboratory;
+pub mod lack_of_fit;
 pub mod regression;
 pub mod residual;
 
