@@ -9,11 +9,13 @@
 //! | [`regression`], [`estimate`], [`residual`] | least squares with its uncertainty |
 //! | [`laboratory`] | virtual measurements |
 
+pub mod centre_of_mass;
 pub mod estimate;
 pub mod flight;
 pub mod laboratory;
 pub mod measurement;
 pub mod recorded;
+pub mod lack_of_fit;
 pub mod regression;
 pub mod residual;
 pub mod rotor_dynamics;
@@ -21,3 +23,6 @@ pub mod rotor_static;
 pub mod validation;
 
 pub use estimate::{Convergence, Estimate, Fit, Goodness, Interval, Warning};
+
+#[cfg(test)]
+mod test_coverage;
