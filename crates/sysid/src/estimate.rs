@@ -245,6 +245,7 @@ pub enum Warning {
         parameter: &'static str,
         /// Standard error divided by the value.
         relative_error: f64,
+    },
     /// The points of a line scatter across it nearly as much as along it.
     #[error(
         "the points scatter {scatter:.2} times as much across the line as along it: the standard errors, to first order, are too \
@@ -281,5 +282,19 @@ pub enum Warning {
         index: usize,
         /// Departure over the median.
         relative_departure: f64,
+    },
+    /// Few periods of an oscillation were recorded.
+    #[error("only {periods} periods were recorded: damping and period are hardly told apart")]
+    FewPeriods {
+        /// How many, in halves.
+        periods: f64,
+    },
+    /// Samples are missing from a record without input.
+    #[error("{gaps} gaps in time, the longest {longest_s} s: the model runs through them on its own")]
+    MissingSamples {
+        /// How many.
+        gaps: usize,
+        /// The longest, s.
+        longest_s: f64,
     },
 }

@@ -16,7 +16,6 @@ mod total;
 
 pub use linear::{Row, linear};
 pub use nonlinear::{Predictor, nonlinear, slopes};
-pub use nonlinear::{Predictor, nonlinear};
 pub use total::{Deviations, NoisyPoint, TotalFit, total};
 
 /// Why a fit was refused.

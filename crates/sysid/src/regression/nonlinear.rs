@@ -17,6 +17,9 @@ pub trait Predictor<const N: usize> {
 /// Evaluations allowed per parameter before the iteration is called unfinished.
 const PATIENCE: usize = 200;
 
+/// Residual that stands for a prediction that is not finite: larger than any datum, and its square is still a number.
+const BAD_STEP: f64 = 1e100;
+
 /// Fits a model to data by least squares from a start.
 ///
 /// Data of unequal noise: divide data and predictions by each datum's standard deviation.
@@ -47,7 +50,7 @@ pub fn nonlinear<const N: usize>(
         model,
         parameters: start,
     };
-    if problem.residuals().is_none() || problem.jacobian().is_none() {
+    if problem.residual_values().iter().any(|r| !r.is_finite()) || problem.jacobian().is_none() {
         return Err(FitError::NoStart { start: start.into() });
     }
     let (problem, report) = LevenbergMarquardt::new()
@@ -114,10 +117,12 @@ impl<M: Predictor<N>, const N: usize> LeastSquaresProblem<f64, Dyn, Const<N>> fo
 
     fn residuals(&self) -> Option<OVector<f64, Dyn>> {
         let residuals = self.residual_values();
-        residuals
-            .iter()
-            .all(|r| r.is_finite())
-            .then(|| DVector::from_vec(residuals))
+        // A trial step beyond what the model can predict is a bad step, from which the iteration turns back.
+        Some(if residuals.iter().all(|r| r.is_finite()) {
+            DVector::from_vec(residuals)
+        } else {
+            DVector::repeat(residuals.len(), BAD_STEP)
+        })
     }
 
     fn jacobian(&self) -> Option<OMatrix<f64, Dyn, Const<N>>> {
