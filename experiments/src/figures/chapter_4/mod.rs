@@ -3,9 +3,13 @@
 use crate::item::Item;
 
 mod characterisation;
+mod figure_4_10;
+mod figure_4_11;
 mod figure_4_7;
 mod figure_4_8;
 mod figure_4_9;
+mod identified;
+mod motor_steps;
 mod propeller;
 mod propeller_panels;
 mod table_4_3;
@@ -15,5 +19,7 @@ pub(super) const ITEMS: &[Item] = &[
     figure_4_7::ITEM,
     figure_4_8::ITEM,
     figure_4_9::ITEM,
+    figure_4_10::ITEM,
+    figure_4_11::ITEM,
     table_4_3::ITEM,
 ];
