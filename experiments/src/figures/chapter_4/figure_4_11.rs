@@ -58,11 +58,11 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         })
     };
     let responses = [respond(Quantity::Thrust)?, respond(Quantity::Torque)?];
-    let mut figure = Figure::columns(2);
+    let motor = motor_steps::read(context)?;
+    let mut figure = Figure::columns(if motor.is_some() { 2 } else { 3 });
     for response in &responses {
         figure = figure.panel(panel(response));
     }
-    let motor = motor_steps::read(context)?;
     figure = figure.panel(autocorrelation(&responses));
     if let Some(motor) = &motor {
         figure = figure.panel(motor.panel());
