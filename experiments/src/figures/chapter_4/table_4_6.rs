@@ -89,7 +89,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     };
     let (percent, p) = (range(|f| f.fit_percent), range(|f| f.whiteness.p_value));
     Ok(Drawing::table(shown)
-        .data(data)
+        // Iterated fits: on another platform they end anywhere within Levenberg-Marquardt's own tolerance, far inside an interval.
+        .data(data.with_tolerance(1e-3))
         .scenario(&bench)?
         .check(
             LINEARISED,
