@@ -5,6 +5,7 @@
 use crate::item::Item;
 
 mod appendix_c;
+mod appendix_e;
 mod appendix_f;
 mod appendix_g;
 mod chapter_1;
@@ -27,6 +28,7 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_6::ITEMS,
     chapter_7::ITEMS,
     appendix_c::ITEMS,
+    appendix_e::ITEMS,
     appendix_f::ITEMS,
     appendix_g::ITEMS,
 ];

@@ -89,7 +89,9 @@ pub(crate) fn residuals(
         Quantity::Thrust => "Residual, mN",
         Quantity::Torque => "Residual, mN m",
     };
-    let panel = Panel::new("*x* = (*ū* − *ū*_{min}) *V*_{b}, V", words).horizontal(0.0, "");
+    let panel = Panel::new("*x* = (*ū* − *ū*_{min}) *V*_{b}, V", words)
+        .x_range(0.0, 0.66)
+        .horizontal(0.0, "");
     let pairs = || of.samples.iter().zip(&of.fit(quantity).residuals);
     bench
         .voltages_v

@@ -2,17 +2,26 @@
 
 use crate::item::Item;
 
+mod advance;
 mod characterisation;
+mod dynamics;
+mod figure_4_10;
+mod figure_4_11;
 mod figure_4_12;
 mod figure_4_13;
 mod figure_4_7;
 mod figure_4_8;
 mod figure_4_9;
 mod flights;
+mod identified;
+mod motor_steps;
 mod propeller;
 mod propeller_panels;
 mod replays;
 mod table_4_3;
+mod table_4_4;
+mod table_4_5;
+mod table_4_6;
 
 /// The items of this chapter.
 pub(super) const ITEMS: &[Item] = &[
@@ -21,5 +30,10 @@ pub(super) const ITEMS: &[Item] = &[
     figure_4_9::ITEM,
     figure_4_12::ITEM,
     figure_4_13::ITEM,
+    figure_4_10::ITEM,
+    figure_4_11::ITEM,
     table_4_3::ITEM,
+    table_4_4::ITEM,
+    table_4_5::ITEM,
+    table_4_6::ITEM,
 ];
