@@ -94,6 +94,8 @@ pub enum Origin {
     Derived,
     /// A drawing without data.
     Schematic,
+    /// Measured on the virtual laboratory: simulated vehicles behind simulated sensors.
+    VirtualLaboratory,
 }
 
 impl Origin {
@@ -105,6 +107,7 @@ impl Origin {
             Self::MeasuredAndSimulated => "measured and simulated data",
             Self::Derived => "derived from equations and parameters",
             Self::Schematic => "schematic drawing",
+            Self::VirtualLaboratory => "virtual laboratory",
         }
     }
 }

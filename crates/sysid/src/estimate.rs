@@ -66,6 +66,15 @@ impl Estimate {
         student_quantile(0.5 + 0.5 * CONFIDENCE, self.degrees_of_freedom) * self.standard_error
     }
 
+    /// Probability of an estimate at least as far from `hypothesis` if that were the truth: two-sided Student's t test.
+    pub fn p_value_against(&self, hypothesis: f64) -> f64 {
+        let distance = (self.value - hypothesis).abs();
+        if distance == 0.0 {
+            return 1.0;
+        }
+        student(self.degrees_of_freedom).map_or(f64::NAN, |t| 2.0 * t.sf(distance / self.standard_error))
+    }
+
     /// The estimate of `f(x)` to first order, with `|f'|` times the standard error.
     #[must_use]
     pub fn mapped(&self, value: f64, slope: f64) -> Self {
@@ -83,8 +92,11 @@ fn student_quantile(probability: f64, degrees_of_freedom: f64) -> f64 {
         probability > 0.0 && probability < 1.0,
         "a confidence level is between 0 and 1"
     );
-    StudentsT::new(0.0, 1.0, degrees_of_freedom.clamp(f64::MIN_POSITIVE, 1e6))
-        .map_or(f64::NAN, |t| t.inverse_cdf(probability))
+    student(degrees_of_freedom).map_or(f64::NAN, |t| t.inverse_cdf(probability))
+}
+
+fn student(degrees_of_freedom: f64) -> Option<StudentsT> {
+    StudentsT::new(0.0, 1.0, degrees_of_freedom.clamp(f64::MIN_POSITIVE, 1e6)).ok()
 }
 
 /// How well a fit describes the data.
@@ -113,6 +125,13 @@ impl Goodness {
             r_squared: (spread > 0.0).then(|| 1.0 - squares / spread),
             degrees_of_freedom,
         }
+    }
+
+    /// Fit in percent, `100 (1 − √(Σ r² / Σ (y − ȳ)²))`, the normalised root mean square error turned round; `None` if the
+    /// data are constant.
+    pub fn fit_percent(&self) -> Option<f64> {
+        self.r_squared
+            .map(|r2| 100.0 * (1.0 - (1.0 - r2).max(0.0).sqrt()))
     }
 }
 
@@ -205,5 +224,16 @@ pub enum Warning {
         gaps: usize,
         /// The longest, s.
         longest_s: f64,
+    },
+    /// The data do not excite what a parameter describes.
+    #[error(
+        "{parameter} is hardly excited by the data: its standard error is {relative_error:.2} of its value; change the input \
+         faster, or choose a smaller model"
+    )]
+    Undetermined {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Standard error divided by the value.
+        relative_error: f64,
     },
 }

@@ -4,5 +4,7 @@ pub mod estimate;
 pub mod laboratory;
 pub mod regression;
 pub mod residual;
+pub mod rotor_dynamics;
+pub mod rotor_static;
 
 pub use estimate::{Convergence, Estimate, Fit, Goodness, Interval, Warning};

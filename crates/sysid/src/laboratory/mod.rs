@@ -4,6 +4,7 @@
 //! sampling rate. Everything is seeded: the generator is an argument (ChaCha8, `rand_chacha`).
 
 mod sensor;
+pub mod thrust_stand;
 
 pub use sensor::{Sensor, SensorError};
 

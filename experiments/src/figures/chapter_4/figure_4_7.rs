@@ -1,23 +1,26 @@
-//! Figure 4.7: thrust and torque against rotor speed, measured, with the fitted static law.
+//! Figure 4.7: thrust, torque and their coefficients against rotor speed, measured, with the fitted laws.
 
-use super::propeller::{self, Fit, Row};
+use super::propeller::{self, Identified, Row, SCALE};
+use super::propeller_panels::{coefficient_panel, force_panel, stream_panel};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use crate::plot::{Figure, Panel, series_style};
+use crate::plot::{Figure, reference_style};
+use quad_dynamics::vehicle::derive::rad_per_s;
+use sysid::rotor_static::{Quantity, advance_slope};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
     id: "4.7",
     title: "Thrust and torque against rotor speed at steady state",
     description: "Wind-tunnel measurements of the Qball-X4's propeller, APC slow flyer 10×4.7 (UIUC Propeller Data Site; Brandt \
-                  and Selig, AIAA 2011-1255), at *ρ* = 1.225 kg m^{−3}, with *T* = *k*_{T} *Ω*^{2} and \
-                  *Q* = *k*_{Q} *Ω*^{2} fitted by least squares. The measured coefficients rise with speed, so one constant \
-                  overstates slow rotors and understates fast ones.",
+                  and Selig, AIAA 2011-1255), at *ρ* = 1.225 kg m^{−3}: thrust, torque and their coefficients against speed, with \
+                  one constant coefficient and with one that follows the speed (bands: 95 %); right, the coefficients in an axial \
+                  stream against the advance ratio, with the line at small ratios whose slope damps a climbing rotor.",
     kind: Kind::Plot,
     origin: Origin::Measured,
-    claims: &[RESIDUALS, QUADRATIC, INTERVALS],
+    claims: &[RESIDUALS, QUADRATIC, INTERVALS, DEPENDENCE],
     make: Make::Draw(draw),
 };
 
@@ -27,54 +30,78 @@ const QUADRATIC: Claim = Claim::does_not_hold(
     "the measured coefficients rise by a fifth from 2400 to 6500 rpm (Reynolds number), which one constant cannot follow",
 );
 const INTERVALS: Claim = Claim::holds("coefficients carry 95 % intervals, narrower than ±3 %");
+const DEPENDENCE: Claim =
+    Claim::holds("the coefficients depend on the speed: a constant one is rejected at p < 10⁻⁶");
+
+/// Reference speed of the dependence, rpm: about hover.
+const REFERENCE_RPM: f64 = 4500.0;
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let rows = propeller::read(context)?;
-    let thrust = propeller::fit(&rows, Row::thrust)?;
-    let torque = propeller::fit(&rows, Row::torque)?;
-    let figure = Figure::columns(2)
-        .panel(panel("Thrust *T*, N", &rows, Row::thrust, &thrust))
-        .panel(panel("Torque *Q*, N m", &rows, Row::torque, &torque));
-    let mut data = DataTable::new([
-        "speed_rpm",
-        "thrust_n",
-        "torque_n_m",
-        "fitted_thrust_n",
-        "fitted_torque_n_m",
-    ]);
-    for r in &rows {
-        let square = r.speed().powi(2);
-        data.push([
-            r.rpm.into(),
-            r.thrust().into(),
-            r.torque().into(),
-            (thrust.slope * square).into(),
-            (torque.slope * square).into(),
-        ]);
-    }
-    let largest = |y: fn(&Row) -> f64| rows.iter().map(y).fold(0.0, f64::max);
-    let off =
-        (thrust.largest_residual / largest(Row::thrust)).max(torque.largest_residual / largest(Row::torque));
-    let width = (thrust.half_width / thrust.slope).max(torque.half_width / torque.slope);
+    let stream = propeller::read_advance(context)?;
+    let reference = rad_per_s(REFERENCE_RPM);
+    let thrust = propeller::identify(&rows, Quantity::Thrust, reference)?;
+    let torque = propeller::identify(&rows, Quantity::Torque, reference)?;
+    let slope = advance_slope(&propeller::small_advance(&stream, &rows))?;
+    let figure = Figure::columns(3)
+        .panel(force_panel("Thrust *T*, N", &rows, Quantity::Thrust, &thrust))
+        .panel(coefficient_panel(
+            "Coefficient *C*_{T}",
+            &rows,
+            Quantity::Thrust,
+            &thrust,
+        ))
+        .panel(
+            stream_panel("Coefficient *C*_{T}", &stream, |row| {
+                row.sample.thrust_coefficient
+            })
+            .line(
+                "line, *J* ≤ 0.3",
+                reference_style(),
+                [0.0, propeller::SMALL_ADVANCE].map(|j| (j, slope.values()[0] + slope.values()[1] * j)),
+            ),
+        )
+        .panel(force_panel("Torque *Q*, N m", &rows, Quantity::Torque, &torque))
+        .panel(coefficient_panel(
+            "Coefficient *C*_{Q}",
+            &rows,
+            Quantity::Torque,
+            &torque,
+        ))
+        .panel(stream_panel("Coefficient *C*_{Q}", &stream, |row| {
+            row.power_coefficient / std::f64::consts::TAU
+        }));
+    let both = [&thrust, &torque];
+    let k = [Quantity::Thrust, Quantity::Torque]
+        .map(|quantity| SCALE.unit(quantity, reference) / reference.powi(2));
+    let largest = |quantity| rows.iter().map(|r| r.value(quantity)).fold(0.0, f64::max);
+    let off = (thrust.constant.goodness.largest_residual / largest(Quantity::Thrust))
+        .max(torque.constant.goodness.largest_residual / largest(Quantity::Torque));
+    let constants = both.map(|i| i.constant.parameters[0]);
+    let width = constants
+        .map(|c| c.half_width() / c.value)
+        .into_iter()
+        .fold(0.0, f64::max);
+    let rms = both.map(|i| propeller::rms(&i.constant.goodness, rows.len()));
+    let varying = both.map(|i| propeller::rms(&i.varying.fit.goodness, rows.len()));
+    let p_values = both.map(|i| i.varying.p_value);
     Ok(Drawing::picture(figure.draw())
-        .data(data)
+        .data(table(&rows, &thrust, &torque))
         .scenario(&toml::toml! {
-            measurements = "propellers/apc_sf_10x4.7_static.csv"
+            measurements = "propellers/apc_sf_10x4.7_static.csv, propellers/apc_sf_10x4.7_advance.csv"
             diameter_m = 0.254
             air_density_kg_m3 = 1.225
-            law = "T = k_T Ω², Q = k_Q Ω², least squares without weights"
+            law = "T = C_T ρ n² D⁴, Q = C_Q ρ n² D⁵, least squares without weights; C = c_0 + c_1 (Ω/Ω_ref − 1) at 4500 rpm"
         })?
         .check(
             RESIDUALS,
-            [thrust, torque]
-                .iter()
-                .all(|f| f.rms_residual.is_finite() && f.rms_residual > 0.0),
+            rms.iter().chain(&varying).all(|r| r.is_finite() && *r > 0.0),
             format!(
-                "RMS {:.3} N and {:.2} mN m; largest {:.3} N and {:.2} mN m",
-                thrust.rms_residual,
-                1e3 * torque.rms_residual,
-                thrust.largest_residual,
-                1e3 * torque.largest_residual
+                "RMS {:.3} N and {:.2} mN m with one constant; {:.3} N and {:.2} mN m with the dependence on speed",
+                rms[0],
+                1e3 * rms[1],
+                varying[0],
+                1e3 * varying[1]
             ),
         )
         .check(
@@ -86,29 +113,42 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             INTERVALS,
             width < 0.03,
             format!(
-                "k_T = ({:.3} ± {:.3})·10⁻⁵ N s², k_Q = ({:.3} ± {:.3})·10⁻⁷ N m s²",
-                1e5 * thrust.slope,
-                1e5 * thrust.half_width,
-                1e7 * torque.slope,
-                1e7 * torque.half_width
+                "k_T = ({:.3} ± {:.3})·10⁻⁵ N s², k_Q = ({:.3} ± {:.3})·10⁻⁷ N m s²; the residuals follow the speed, so that \
+                 these intervals, made for noise, are too narrow for a rotor at one speed",
+                1e5 * k[0] * constants[0].value,
+                1e5 * k[0] * constants[0].half_width(),
+                1e7 * k[1] * constants[1].value,
+                1e7 * k[1] * constants[1].half_width()
             ),
+        )
+        .check(
+            DEPENDENCE,
+            both.iter().all(|i| i.varying.is_significant(1e-6)),
+            format!("p = {:.0e} for C_T, {:.0e} for C_Q", p_values[0], p_values[1]),
         ))
 }
 
-fn panel(label: &str, rows: &[Row], y: fn(&Row) -> f64, fit: &Fit) -> Panel {
-    let fastest = rows.iter().map(|r| r.rpm).fold(0.0, f64::max);
-    let curve = (0..=100).map(|k| {
-        let rpm = fastest * f64::from(k) / 100.0;
-        (
-            rpm / 1e3,
-            fit.slope * quad_dynamics::vehicle::derive::rad_per_s(rpm).powi(2),
-        )
-    });
-    Panel::new("Rotor speed, 1000 rpm", label)
-        .line("fit", series_style(0), curve)
-        .markers(
-            "measured",
-            series_style(1),
-            rows.iter().map(|r| (r.rpm / 1e3, y(r))),
-        )
+fn table(rows: &[Row], thrust: &Identified, torque: &Identified) -> DataTable {
+    let mut data = DataTable::new([
+        "speed_rpm",
+        "thrust_n",
+        "torque_n_m",
+        "fitted_thrust_n",
+        "fitted_torque_n_m",
+        "fitted_c_t_of_speed",
+        "fitted_c_q_of_speed",
+    ]);
+    for r in rows {
+        let fitted = |quantity, i: &Identified| i.constant.values()[0] * SCALE.unit(quantity, r.speed());
+        data.push([
+            r.rpm.into(),
+            r.value(Quantity::Thrust).into(),
+            r.value(Quantity::Torque).into(),
+            fitted(Quantity::Thrust, thrust).into(),
+            fitted(Quantity::Torque, torque).into(),
+            thrust.varying.at(r.speed()).value.into(),
+            torque.varying.at(r.speed()).value.into(),
+        ]);
+    }
+    data
 }

@@ -4,6 +4,7 @@ use crate::item::Item;
 
 mod figure_4_7;
 mod propeller;
+mod propeller_panels;
 mod table_4_3;
 
 /// The items of this chapter.

@@ -1,17 +1,26 @@
-//! The wind-tunnel measurements of the propeller and the fit of its static law, with intervals.
+//! The published wind-tunnel measurements of the propeller, as the identification takes them.
 
 use crate::item::{Context, ItemError};
 use quad_dynamics::vehicle::derive::rad_per_s;
 use serde::Deserialize;
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use serde::de::DeserializeOwned;
 use std::f64::consts::TAU;
+use sysid::rotor_static::{
+    AdvanceSample, PropellerSample, PropellerScale, Quantity, SpeedDependence, SpeedLaw, coefficient,
+    speed_dependence,
+};
+use sysid::{Fit, Goodness};
 
 /// The measurements, below `data/`.
 pub(super) const STATIC_TABLE: &str = "propellers/apc_sf_10x4.7_static.csv";
+/// The measurements in an axial stream, below `data/`.
+pub(super) const ADVANCE_TABLE: &str = "propellers/apc_sf_10x4.7_advance.csv";
 
-/// Diameter of the propeller, m, and the air density that dimensions the coefficients, kg/m³.
-pub(super) const DIAMETER_M: f64 = 0.254;
-pub(super) const AIR_DENSITY: f64 = 1.225;
+/// Diameter of the propeller and the air density that dimensions the coefficients.
+pub(super) const SCALE: PropellerScale = PropellerScale {
+    diameter_m: 0.254,
+    air_density_kg_m3: 1.225,
+};
 
 /// One row of the static table.
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -24,73 +33,115 @@ pub(super) struct Row {
     pub(super) power_coefficient: f64,
 }
 
+/// One row of the table in an axial stream.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct AdvanceRow {
+    /// The source's name of the run.
+    pub(super) run: String,
+    /// Nominal rotor speed of the run, revolutions per minute.
+    pub(super) rpm: f64,
+    /// J and `C_T`.
+    #[serde(flatten)]
+    pub(super) sample: AdvanceSample,
+    /// `C_P`.
+    pub(super) power_coefficient: f64,
+}
+
 impl Row {
     /// Ω, rad/s.
     pub(super) fn speed(&self) -> f64 {
         rad_per_s(self.rpm)
     }
 
-    /// `C_Q = C_P / 2π`.
-    pub(super) fn torque_coefficient(&self) -> f64 {
-        self.power_coefficient / TAU
+    /// `C_T`, or `C_Q = C_P / 2π`.
+    pub(super) fn coefficient(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Thrust => self.thrust_coefficient,
+            Quantity::Torque => self.power_coefficient / TAU,
+        }
     }
 
-    /// Thrust, N.
-    pub(super) fn thrust(&self) -> f64 {
-        self.thrust_coefficient * scale(4) * self.speed().powi(2)
+    /// Thrust, N, or torque, N m.
+    pub(super) fn value(&self, quantity: Quantity) -> f64 {
+        self.coefficient(quantity) * SCALE.unit(quantity, self.speed())
     }
-
-    /// Torque, N m.
-    pub(super) fn torque(&self) -> f64 {
-        self.torque_coefficient() * scale(5) * self.speed().powi(2)
-    }
-}
-
-/// `ρ D^k / (2π)²`: from a coefficient to newtons (k = 4) or newton metres (k = 5) per squared rad/s.
-pub(super) fn scale(power: i32) -> f64 {
-    AIR_DENSITY * DIAMETER_M.powi(power) / (TAU * TAU)
 }
 
 /// Reads the static table.
 pub(super) fn read(context: &Context) -> Result<Vec<Row>, ItemError> {
-    let path = context.data(STATIC_TABLE);
+    table(context, STATIC_TABLE)
+}
+
+/// Reads the table in an axial stream.
+pub(super) fn read_advance(context: &Context) -> Result<Vec<AdvanceRow>, ItemError> {
+    table(context, ADVANCE_TABLE)
+}
+
+fn table<T: DeserializeOwned>(context: &Context, relative: &str) -> Result<Vec<T>, ItemError> {
+    let path = context.data(relative);
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&path)?;
-    Ok(reader.deserialize().collect::<Result<Vec<Row>, _>>()?)
+    Ok(reader.deserialize().collect::<Result<Vec<T>, _>>()?)
 }
 
-/// A line through the origin, `y = k x`, fitted by least squares.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fit {
-    /// `k`.
-    pub(super) slope: f64,
-    /// Half width of its 95 % interval (Student's t, residuals taken as independent).
-    pub(super) half_width: f64,
-    /// Root mean square residual, in the unit of y.
-    pub(super) rms_residual: f64,
-    /// Largest residual, in the unit of y.
-    pub(super) largest_residual: f64,
+/// The identification of one coefficient from the static table.
+pub(super) struct Identified {
+    /// `C_T` or `C_Q` with one constant.
+    pub(super) constant: Fit<1>,
+    /// The same with a line over the speed, which leaves a seventh of the residual; a logarithm would leave more.
+    pub(super) varying: SpeedDependence,
 }
 
-/// Fits `y = k Ω²`.
-pub(super) fn fit(rows: &[Row], y: fn(&Row) -> f64) -> Result<Fit, ItemError> {
-    let points: Vec<(f64, f64)> = rows.iter().map(|r| (r.speed().powi(2), y(r))).collect();
-    let xx: f64 = points.iter().map(|(x, _)| x * x).sum();
-    let slope = points.iter().map(|(x, y)| x * y).sum::<f64>() / xx;
-    let residuals: Vec<f64> = points.iter().map(|(x, y)| y - slope * x).collect();
-    let squares: f64 = residuals.iter().map(|r| r * r).sum();
-    let freedom = points.len() as f64 - 1.0;
-    let quantile = StudentsT::new(0.0, 1.0, freedom)?.inverse_cdf(0.975);
-    Ok(Fit {
-        slope,
-        half_width: quantile * (squares / freedom / xx).sqrt(),
-        rms_residual: (squares / points.len() as f64).sqrt(),
-        largest_residual: residuals.iter().fold(0.0_f64, |m, r| m.max(r.abs())),
+/// Identifies a coefficient; the reference speed of its dependence is in rad/s.
+pub(super) fn identify(
+    rows: &[Row],
+    quantity: Quantity,
+    reference_rad_s: f64,
+) -> Result<Identified, ItemError> {
+    let samples: Vec<PropellerSample> = rows
+        .iter()
+        .map(|row| PropellerSample {
+            speed_rad_s: row.speed(),
+            thrust_n: row.value(Quantity::Thrust),
+            torque_n_m: row.value(Quantity::Torque),
+        })
+        .collect();
+    Ok(Identified {
+        constant: coefficient(&samples, &SCALE, quantity)?,
+        varying: speed_dependence(&samples, &SCALE, quantity, SpeedLaw::Linear, reference_rad_s)?,
     })
 }
 
+/// Root mean square residual `√(Σ r²/n)`, in the unit of the data.
+pub(super) fn rms(goodness: &Goodness, points: usize) -> f64 {
+    goodness.standard_deviation * (goodness.degrees_of_freedom / points as f64).sqrt()
+}
+
+/// Largest advance ratio of the line: the coefficient bends beyond.
+pub(super) const SMALL_ADVANCE: f64 = 0.3;
+
+/// The run at about hover speed, and the static row at its speed, which is its point at rest.
+pub(super) const HOVER_RUN: &str = "kt0836";
+const HOVER_RUN_RPM: f64 = 4029.0;
+
+/// The samples of the hover run at small advance ratios, the static point first.
+pub(super) fn small_advance(rows: &[AdvanceRow], at_rest: &[Row]) -> Vec<AdvanceSample> {
+    let rest = at_rest.iter().find(|row| row.rpm == HOVER_RUN_RPM);
+    let rest = rest.map(|row| AdvanceSample {
+        advance_ratio: 0.0,
+        thrust_coefficient: row.thrust_coefficient,
+    });
+    let moving = rows
+        .iter()
+        .filter(|row| row.run == HOVER_RUN)
+        .map(|row| row.sample);
+    rest.into_iter()
+        .chain(moving.filter(|sample| sample.advance_ratio <= SMALL_ADVANCE))
+        .collect()
+}
+
 /// The coefficient of the table at a speed, rpm, by linear interpolation.
-pub(super) fn at_speed(rows: &[Row], rpm: f64, coefficient: fn(&Row) -> f64) -> Option<f64> {
+pub(super) fn at_speed(rows: &[Row], rpm: f64, quantity: Quantity) -> Option<f64> {
     let pair = rows.windows(2).find(|p| p[0].rpm <= rpm && rpm <= p[1].rpm)?;
     let share = (rpm - pair[0].rpm) / (pair[1].rpm - pair[0].rpm);
-    Some(coefficient(&pair[0]) * (1.0 - share) + coefficient(&pair[1]) * share)
+    Some(pair[0].coefficient(quantity) * (1.0 - share) + pair[1].coefficient(quantity) * share)
 }
