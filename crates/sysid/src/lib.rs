@@ -2,6 +2,8 @@
 
 pub mod estimate;
 pub mod laboratory;
+pub mod measurement;
+pub mod recorded;
 pub mod regression;
 pub mod residual;
 pub mod rotor_dynamics;

@@ -1,0 +1,4 @@
+//! Tests on recorded flights, which are not part of the repository (see `data/README.md`).
+
+mod files;
+mod frames;
