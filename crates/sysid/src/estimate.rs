@@ -236,4 +236,41 @@ pub enum Warning {
         /// Standard error divided by the value.
         relative_error: f64,
     },
+    /// The points of a line scatter across it nearly as much as along it.
+    #[error(
+        "the points scatter {scatter:.2} times as much across the line as along it: the standard errors, to first order, are too \
+         small"
+    )]
+    IndistinctLine {
+        /// Scatter across over spread along, both in units of the standard deviations.
+        scatter: f64,
+    },
+    /// The points scatter more, or less, than their stated standard deviations say.
+    #[error(
+        "the scatter is not that of the stated standard deviations (chi-squared p = {p_value:.1e}): doubt one of them"
+    )]
+    ScatterUnlikeStated {
+        /// Probability of a χ² at least as large.
+        p_value: f64,
+    },
+    /// Groups of repeated measurements differ by more than repetitions scatter: a systematic error.
+    #[error(
+        "groups of repeated measurements disagree with the model by more than the repetitions scatter (F test, p = {p_value:.1e}): a \
+         systematic error, which no interval contains"
+    )]
+    GroupsDisagree {
+        /// Probability of such a disagreement by chance.
+        p_value: f64,
+    },
+    /// One placing weighs more or less than the others.
+    #[error(
+        "placing {index} (counted from 0) departs from the median weight by {:.1} %: a scale at the end of its range, or a fourth \
+         point of support?", 100.0 * relative_departure
+    )]
+    OddWeight {
+        /// Place in the order of the data.
+        index: usize,
+        /// Departure over the median.
+        relative_departure: f64,
+    },
 }

@@ -5,6 +5,7 @@
 
 mod sensor;
 pub mod thrust_stand;
+pub mod supports;
 
 pub use sensor::{Sensor, SensorError};
 

@@ -11,9 +11,11 @@
 
 mod linear;
 mod nonlinear;
+mod total;
 
 pub use linear::{Row, linear};
 pub use nonlinear::{Predictor, nonlinear};
+pub use total::{Deviations, NoisyPoint, TotalFit, total};
 
 /// Why a fit was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,6 +49,28 @@ pub enum FitError {
     NoStart {
         /// The start.
         start: Vec<f64>,
+    },
+    /// A standard deviation is negative, or both of a point are zero.
+    #[error(
+        "point {index} (counted from 0) has the standard deviations {x_deviation} and {y_deviation}: none may be negative \
+         and one must be positive"
+    )]
+    Deviation {
+        /// Place in the order of the points.
+        index: usize,
+        /// Along x.
+        x_deviation: f64,
+        /// Along y.
+        y_deviation: f64,
+    },
+    /// The points scatter as much across any line as along it, or lie on a vertical one.
+    #[error(
+        "the points have no direction: they scatter {scatter:.3} times as much across the best line as along it; measure over a \
+         wider range"
+    )]
+    NoDirection {
+        /// Scatter across over spread along, both in units of the standard deviations.
+        scatter: f64,
     },
     /// The decomposition did not converge.
     #[error("the singular values of the data could not be computed")]
