@@ -21,6 +21,7 @@ pub mod gallery;
 pub mod item;
 pub mod output;
 pub mod reference;
+mod rotor_bench;
 pub mod run;
 pub mod summary;
 

@@ -1,11 +1,25 @@
-//! Chapter 4: the propeller's published measurements.
+//! Chapter 4: identification, from published measurements and the virtual laboratory.
 
 use crate::item::Item;
 
+mod characterisation;
+mod figure_4_10;
+mod figure_4_11;
 mod figure_4_7;
+mod figure_4_8;
+mod figure_4_9;
+mod identified;
+mod motor_steps;
 mod propeller;
 mod propeller_panels;
 mod table_4_3;
 
 /// The items of this chapter.
-pub(super) const ITEMS: &[Item] = &[figure_4_7::ITEM, table_4_3::ITEM];
+pub(super) const ITEMS: &[Item] = &[
+    figure_4_7::ITEM,
+    figure_4_8::ITEM,
+    figure_4_9::ITEM,
+    figure_4_10::ITEM,
+    figure_4_11::ITEM,
+    table_4_3::ITEM,
+];
