@@ -196,7 +196,7 @@ fn listing(items: &[Item]) -> String {
 fn lines(record: &Record) -> Vec<String> {
     let how = match &record.status {
         Status::Drawn => format!("drawn in {:.2} s, {} claims", record.seconds, record.claims.len()),
-        Status::NotReproducible { .. } => "not reproducible".into(),
+        Status::NotReproducible { reason } => format!("not reproducible: {reason}"),
         Status::Failed { error } => format!("FAILED: {error}"),
     };
     let mut lines = vec![format!("{:<10} {how}", record.id)];

@@ -12,6 +12,8 @@ use crate::plot::text;
 pub struct Drawing {
     /// The picture or the table.
     pub body: Body,
+    /// A table shown beneath a picture, written as `<id>.html`.
+    pub beneath: Option<DisplayTable>,
     /// The data drawn; the first table becomes `<id>.csv`, a further one `<id>-<name>.csv`.
     pub data: Vec<(String, DataTable)>,
     /// The resolved settings, written as `<id>.toml`.
@@ -45,11 +47,18 @@ impl Drawing {
     fn new(body: Body) -> Self {
         Self {
             body,
+            beneath: None,
             data: Vec::new(),
             scenario: None,
             findings: Vec::new(),
             notes: Vec::new(),
         }
+    }
+
+    /// Shows a table beneath the picture.
+    pub fn beneath(mut self, table: DisplayTable) -> Self {
+        self.beneath = Some(table);
+        self
     }
 
     /// Adds the data drawn, written as `<id>.csv`.

@@ -155,7 +155,8 @@ fn article(item: &Item, record: Option<&Record>, table: &impl Fn(&str) -> String
             item.heading(),
             escape(&text::plain(item.title))
         );
-    } else if record.files.iter().any(|file| file.ends_with(".html")) {
+    }
+    if record.files.iter().any(|file| file.ends_with(".html")) {
         let _ = write!(out, "<div class=\"scroll\">{}</div>", table(item.id));
     }
     let _ = writeln!(out, "<p>{}</p>", text::html(item.description));

@@ -158,30 +158,55 @@ pub fn repository_root() -> PathBuf {
     manifest.parent().unwrap_or(manifest).to_owned()
 }
 
-/// Why an item could not be made: any error of the crates below, so that `?` works on all of them.
+/// Why an item could not be made: any error of the crates below, so that `?` works on all of them; or data that this machine
+/// does not have.
 ///
 /// Like every type with a blanket `From`, it is no `Error` itself; [`ItemError::new`] wraps a message for the rare
 /// case that no typed error exists.
 #[derive(Debug)]
-pub struct ItemError(Box<dyn Error + Send + Sync>);
+pub struct ItemError(Cause);
+
+#[derive(Debug)]
+enum Cause {
+    Failed(Box<dyn Error + Send + Sync>),
+    MissingData(String),
+}
 
 impl ItemError {
     /// An error from a message alone.
     pub fn new(message: impl Into<String>) -> Self {
-        Self(message.into().into())
+        Self(Cause::Failed(message.into().into()))
+    }
+
+    /// The item needs recordings that are not part of the repository and not on this machine: no failure, but the item
+    /// can't be made and its claims stay unchecked. One sentence without the full stop that says how to get them.
+    pub fn missing_data(reason: impl Into<String>) -> Self {
+        Self(Cause::MissingData(reason.into()))
+    }
+
+    /// Why data are missing, if that is what is wrong.
+    pub fn missing(&self) -> Option<&str> {
+        match &self.0 {
+            Cause::MissingData(reason) => Some(reason),
+            Cause::Failed(_) => None,
+        }
     }
 }
 
 impl<E: Error + Send + Sync + 'static> From<E> for ItemError {
     fn from(error: E) -> Self {
-        Self(Box::new(error))
+        Self(Cause::Failed(Box::new(error)))
     }
 }
 
 impl fmt::Display for ItemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.0)?;
-        let mut source = self.0.source();
+        let error = match &self.0 {
+            Cause::MissingData(reason) => return f.write_str(reason),
+            Cause::Failed(error) => error,
+        };
+        write!(f, "{error}")?;
+        let mut source = error.source();
         while let Some(cause) = source {
             write!(f, ": {cause}")?;
             source = cause.source();

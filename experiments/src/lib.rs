@@ -20,6 +20,7 @@ pub mod flight;
 pub mod gallery;
 pub mod item;
 pub mod output;
+pub mod recordings;
 pub mod reference;
 mod rotor_bench;
 pub mod run;

@@ -49,6 +49,9 @@ pub fn write(folder: &Path, id: &str, drawing: &Drawing) -> Result<Vec<String>, 
         Body::Picture(svg) => {
             save(format!("{id}.svg"), svg.document().as_bytes())?;
             save(format!("{id}.png"), &raster::png(svg)?)?;
+            if let Some(table) = &drawing.beneath {
+                save(format!("{id}.html"), table.to_html().as_bytes())?;
+            }
         }
         Body::Table(table) => save(format!("{id}.html"), table.to_html().as_bytes())?,
     }

@@ -132,7 +132,12 @@ pub fn make_item(item: &Item, options: &Options) -> Record {
         Make::Draw(draw) => {
             match guarded(draw, &options.context) {
                 Ok(drawing) => finish(item, &drawing, options, &mut record),
-                Err(error) => record.status = Status::Failed { error },
+                Err(status) => record.status = status,
+            }
+            if matches!(record.status, Status::NotReproducible { .. }) {
+                record
+                    .notes
+                    .extend(item.claims.iter().map(|c| format!("Not checked: {}.", c.text)));
             }
             record.seconds = start.elapsed().as_secs_f64();
         }
@@ -176,12 +181,21 @@ fn compare(id: &str, drawing: &Drawing, options: &Options) -> Vec<String> {
     }
 }
 
-/// Runs an item's function; a panic becomes an error.
-fn guarded(draw: Draw, context: &Context) -> Result<Drawing, String> {
+/// Runs an item's function; a panic becomes a failure, missing recordings do not.
+fn guarded(draw: Draw, context: &Context) -> Result<Drawing, Status> {
     match panic::catch_unwind(AssertUnwindSafe(|| draw(context))) {
         Ok(Ok(drawing)) => Ok(drawing),
-        Ok(Err(error)) => Err(error.to_string()),
-        Err(payload) => Err(format!("panic: {}", message_of(payload.as_ref()))),
+        Ok(Err(error)) => Err(match error.missing() {
+            Some(reason) => Status::NotReproducible {
+                reason: reason.to_owned(),
+            },
+            None => Status::Failed {
+                error: error.to_string(),
+            },
+        }),
+        Err(payload) => Err(Status::Failed {
+            error: format!("panic: {}", message_of(payload.as_ref())),
+        }),
     }
 }
 

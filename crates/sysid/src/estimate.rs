@@ -108,7 +108,7 @@ pub struct Goodness {
     pub largest_residual: f64,
     /// `R² = 1 − Σ r² / Σ (y − ȳ)²`; `None` if the data are constant.
     pub r_squared: Option<f64>,
-    /// `n − p`.
+    /// `n − p`; fewer where intervals were widened for correlated residuals.
     pub degrees_of_freedom: f64,
 }
 
@@ -202,6 +202,16 @@ pub enum Warning {
         p_value: f64,
         /// Lags tested.
         lags: usize,
+    },
+    /// The residuals are correlated, and the intervals have been widened for it.
+    #[error(
+        "the residuals are correlated: intervals hold for correlation over {lags} data, up to {factor:.1} times wider"
+    )]
+    IntervalsWidened {
+        /// Data over which correlation was taken into account.
+        lags: usize,
+        /// Largest factor on a standard error.
+        factor: f64,
     },
     /// The iteration stopped before a minimum was found.
     #[error("the fit did not converge within {evaluations} evaluations: the numbers are the best found")]

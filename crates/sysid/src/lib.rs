@@ -1,7 +1,17 @@
 //! System identification of a quadrotor.
+//!
+//! | module | holds |
+//! | --- | --- |
+//! | [`measurement`] | the reader of all measurement files |
+//! | [`recorded`] | public data sets in the project's frames and units |
+//! | [`flight`] | thrust, lag and inertia from recorded flights |
+//! | [`validation`] | replay of flights at levels 2 to 5, fit %, Theil's coefficient |
+//! | [`regression`], [`estimate`], [`residual`] | least squares with its uncertainty |
+//! | [`laboratory`] | virtual measurements |
 
 pub mod centre_of_mass;
 pub mod estimate;
+pub mod flight;
 pub mod laboratory;
 pub mod measurement;
 pub mod recorded;
@@ -10,6 +20,7 @@ pub mod regression;
 pub mod residual;
 pub mod rotor_dynamics;
 pub mod rotor_static;
+pub mod validation;
 
 pub use estimate::{Convergence, Estimate, Fit, Goodness, Interval, Warning};
 

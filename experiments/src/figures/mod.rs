@@ -4,6 +4,7 @@
 
 use crate::item::Item;
 
+mod appendix_c;
 mod appendix_f;
 mod appendix_g;
 mod chapter_3;
@@ -18,6 +19,7 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_4::ITEMS,
     chapter_5::ITEMS,
     chapter_6::ITEMS,
+    appendix_c::ITEMS,
     appendix_f::ITEMS,
     appendix_g::ITEMS,
 ];

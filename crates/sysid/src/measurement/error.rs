@@ -153,6 +153,14 @@ pub enum ReadError {
         /// Time of this row, s.
         after: f64,
     },
+    /// Four numbers that are no attitude.
+    #[error("line {line}: the quaternion of the attitude has the length {length} instead of 1")]
+    NoAttitude {
+        /// The line.
+        line: u64,
+        /// Its length.
+        length: f64,
+    },
     /// More rows than are held in memory.
     #[error(
         "the file has more than {limit} rows: stream it with `scan` and average or decimate, or raise the layout's limit"

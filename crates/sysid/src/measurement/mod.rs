@@ -28,14 +28,14 @@
 mod error;
 mod header;
 mod lines;
-mod watch;
+pub(crate) mod watch;
 
 pub use error::{FileKind, ReadError, Remark};
 
 use std::io::Read;
 use std::ops::ControlFlow;
 
-/// Rows that [`read`] collects unless told otherwise: with ten columns of eight bytes, half a gigabyte at most.
+/// Rows that [`read`] collects unless told otherwise: with ten columns of eight bytes and a line number each, half a gigabyte at most.
 pub const DEFAULT_ROW_LIMIT: usize = 6_000_000;
 
 /// A column that a file must have.
@@ -138,6 +138,7 @@ pub struct Scan {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     columns: Vec<Vec<f64>>,
+    lines: Vec<u64>,
     /// What a user should know about the data.
     pub remarks: Vec<Remark>,
 }
@@ -151,9 +152,17 @@ impl Table {
         &self.columns[index]
     }
 
+    /// Line number in the file, from 1, of a row, from 0.
+    ///
+    /// # Panics
+    /// If there is no such row: a programming error.
+    pub fn line(&self, row: usize) -> u64 {
+        self.lines[row]
+    }
+
     /// How many rows there are; at least one.
     pub fn rows(&self) -> usize {
-        self.columns.first().map_or(0, Vec::len)
+        self.lines.len()
     }
 }
 
@@ -206,15 +215,14 @@ pub fn scan(
 /// As [`scan`]; and more rows than the layout's limit.
 pub fn read(input: impl Read, layout: &Layout<'_>) -> Result<Table, ReadError> {
     let mut columns = vec![Vec::new(); layout.columns.len()];
+    let mut lines = Vec::new();
     let mut overfull = false;
     let scan = scan(input, layout, |row| {
-        if columns
-            .first()
-            .is_some_and(|c: &Vec<f64>| c.len() >= layout.row_limit)
-        {
+        if lines.len() >= layout.row_limit {
             overfull = true;
             return ControlFlow::Break(());
         }
+        lines.push(row.line);
         for (column, value) in columns.iter_mut().zip(row.values) {
             column.push(*value);
         }
@@ -227,6 +235,7 @@ pub fn read(input: impl Read, layout: &Layout<'_>) -> Result<Table, ReadError> {
     }
     Ok(Table {
         columns,
+        lines,
         remarks: scan.remarks,
     })
 }

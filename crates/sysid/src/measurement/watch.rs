@@ -142,3 +142,27 @@ impl<'a> Watch<'a> {
         remarks
     }
 }
+
+/// A stretch at an extreme.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Saturation {
+    /// The value that repeats.
+    pub(crate) limit: f64,
+    /// For how many samples.
+    pub(crate) samples: usize,
+}
+
+/// The longest stretch at either extreme of a series, if it is long enough to be no chance.
+pub(crate) fn saturation(values: &[f64]) -> Option<Saturation> {
+    let first = *values.first()?;
+    let (mut low, mut high) = (Stretch::at(first, 0), Stretch::at(first, 0));
+    for &value in &values[1..] {
+        low.see(value, 0, value < low.value);
+        high.see(value, 0, value > high.value);
+    }
+    let worst = if low.longest > high.longest { low } else { high };
+    (worst.longest >= SATURATED_FROM).then_some(Saturation {
+        limit: worst.value,
+        samples: worst.longest,
+    })
+}

@@ -56,3 +56,6 @@ impl InertialLog {
         place(from)..place(to).max(place(from))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -65,6 +65,9 @@ const COLUMNS: [Column; 28] = [
 /// One lost sample at 100 Hz is bridged by the set itself; more is a gap.
 const LONGEST_STEP: f64 = 0.025;
 
+/// How far a quaternion's length may be from 1: interpolated between samples, a fast turn costs a hundredth.
+const UNIT_TOLERANCE: f64 = 0.02;
+
 /// A flight under motion capture: world W north-east-down, body B forward-right-down. North is the laboratory's x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionCaptureFlight {
@@ -87,7 +90,7 @@ pub struct MotionCaptureFlight {
 /// Reads one flight of the set.
 ///
 /// # Errors
-/// As [`read`].
+/// As [`read`]; a quaternion that is no attitude.
 pub fn read_nanobench(input: impl Read) -> Result<MotionCaptureFlight, ReadError> {
     let table = read(input, &Layout::timed(&COLUMNS, LONGEST_STEP))?;
     let vectors = |first: usize, scale: f64| -> Vec<Vector3<f64>> {
@@ -98,7 +101,9 @@ pub fn read_nanobench(input: impl Read) -> Result<MotionCaptureFlight, ReadError
     Ok(MotionCaptureFlight {
         position: vectors(1, 1.0),
         velocity: vectors(4, 1.0),
-        attitude: (0..table.rows()).map(|k| attitude(&table, k)).collect(),
+        attitude: (0..table.rows())
+            .map(|k| attitude(&table, k))
+            .collect::<Result<_, _>>()?,
         captured_rates: vectors(11, 1.0),
         set_point: vectors(24, 1.0),
         voltage: table.column(27).to_vec(),
@@ -114,7 +119,15 @@ pub fn read_nanobench(input: impl Read) -> Result<MotionCaptureFlight, ReadError
     })
 }
 
-fn attitude(table: &Table, k: usize) -> Quaternion<f64> {
+fn attitude(table: &Table, k: usize) -> Result<Quaternion<f64>, ReadError> {
     let v = Vector3::from_fn(|axis, _| table.column(7 + axis)[k]);
-    half_turned_attitude(table.column(10)[k], v)
+    let w = table.column(10)[k];
+    let length = (w * w + v.norm_squared()).sqrt();
+    if (length - 1.0).abs() > UNIT_TOLERANCE {
+        return Err(ReadError::NoAttitude {
+            line: table.line(k),
+            length,
+        });
+    }
+    Ok(half_turned_attitude(w, v))
 }

@@ -9,13 +9,14 @@
 //! columns of X are scaled to unit length first, so that the condition number speaks of the data and not of units.
 //! Source: Draper and Smith, *Applied Regression Analysis*; Golub and Van Loan, *Matrix Computations*, chapters 5 and 6.
 
+mod correlated;
 mod linear;
 mod nonlinear;
 mod total;
 
 pub use linear::{Row, linear};
-pub use nonlinear::{Predictor, nonlinear};
 pub use total::{Deviations, NoisyPoint, TotalFit, total};
+pub use nonlinear::{Predictor, nonlinear, slopes};
 
 /// Why a fit was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

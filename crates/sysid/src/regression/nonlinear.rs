@@ -68,6 +68,18 @@ pub fn nonlinear<const N: usize>(
     Ok(fit(solution, residuals, data, Some(convergence)))
 }
 
+/// Rows of the Jacobian of the predictions at these parameters.
+pub fn slopes<const N: usize>(model: &impl Predictor<N>, parameters: &[f64; N]) -> Vec<[f64; N]> {
+    let seeded: [Dual<N>; N] = std::array::from_fn(|i| {
+        let mut dual = Dual::<N>::from_re(parameters[i]);
+        dual.eps = num_dual::Derivative::derivative_generic(nalgebra::Const::<N>, nalgebra::U1, i);
+        dual
+    });
+    let predicted = model.predict(&seeded);
+    let row = |p: &Dual<N>| p.eps.0.map_or([0.0; N], Into::into);
+    predicted.iter().map(row).collect()
+}
+
 struct Problem<'a, M, const N: usize> {
     data: &'a [f64],
     model: &'a M,
@@ -82,16 +94,8 @@ impl<M: Predictor<N>, const N: usize> Problem<'_, M, N> {
         self.data.iter().zip(predicted).map(|(y, p)| y - p).collect()
     }
 
-    /// Rows of the predictions' Jacobian.
     fn slopes(&self) -> Vec<[f64; N]> {
-        let seeded: [Dual<N>; N] = std::array::from_fn(|i| {
-            let mut dual = Dual::<N>::from_re(self.parameters[i]);
-            dual.eps = num_dual::Derivative::derivative_generic(nalgebra::Const::<N>, nalgebra::U1, i);
-            dual
-        });
-        let predicted = self.model.predict(&seeded);
-        let row = |p: &Dual<N>| p.eps.0.map_or([0.0; N], Into::into);
-        predicted.iter().map(row).collect()
+        slopes(self.model, &self.parameters)
     }
 }
 

@@ -70,8 +70,9 @@ fn data_nanobench_rates_are_the_body_components_of_the_attitudes_derivative() {
             .map(|k| attitude_rate(&flight, k))
             .collect();
         let world = |k: usize| flight.attitude[k].rotate(&rates[k]);
+        let turned = |k: usize, axis: usize| rates[k][axis];
         for axis in 0..3 {
-            let from_attitude = smoothed(|k| rates[k][axis], &samples, 5);
+            let from_attitude = smoothed(|k| turned(k, axis), &samples, 5);
             let captured = smoothed(|k| flight.captured_rates[k][axis], &samples, 5);
             let captured = line(&from_attitude, &captured);
             // The same motion capture, smoothed by the set's authors: a few per cent are lost.
@@ -193,13 +194,13 @@ fn data_motor_order_and_signs_give_the_recorded_angular_acceleration() {
     for (name, from, to, axis, least) in windows {
         let Some(log) = arpl(name) else { return };
         let mut lagged = [0.0; 4];
-        let mut torque = vec![0.0; log.time.len()];
+        let mut torque = vec![0.0];
         for k in 1..log.time.len() {
             let step = ((log.time[k - 1] - log.time[k]) / 0.07).exp();
             for (state, c) in lagged.iter_mut().zip(&log.commands[k - 1]) {
                 *state = *state * step + c * (1.0 - step);
             }
-            torque[k] = moments(&vehicle, &lagged)[axis];
+            torque.push(moments(&vehicle, &lagged)[axis]);
         }
         let samples: Vec<usize> = log.window(from, to).step_by(25).collect();
         let rate = |k: usize| {

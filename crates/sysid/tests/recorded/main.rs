@@ -2,3 +2,5 @@
 
 mod files;
 mod frames;
+mod identification;
+mod replay;

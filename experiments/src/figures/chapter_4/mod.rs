@@ -12,6 +12,10 @@ mod identified;
 mod motor_steps;
 mod propeller;
 mod propeller_panels;
+mod figure_4_12;
+mod figure_4_13;
+mod flights;
+mod replays;
 mod table_4_3;
 
 /// The items of this chapter.
@@ -21,5 +25,7 @@ pub(super) const ITEMS: &[Item] = &[
     figure_4_9::ITEM,
     figure_4_10::ITEM,
     figure_4_11::ITEM,
+    figure_4_12::ITEM,
+    figure_4_13::ITEM,
     table_4_3::ITEM,
 ];
