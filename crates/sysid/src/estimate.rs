@@ -283,4 +283,18 @@ pub enum Warning {
         /// Departure over the median.
         relative_departure: f64,
     },
+    /// Few periods of an oscillation were recorded.
+    #[error("only {periods} periods were recorded: damping and period are hardly told apart")]
+    FewPeriods {
+        /// How many, in halves.
+        periods: f64,
+    },
+    /// Samples are missing from a record without input.
+    #[error("{gaps} gaps in time, the longest {longest_s} s: the model runs through them on its own")]
+    MissingSamples {
+        /// How many.
+        gaps: usize,
+        /// The longest, s.
+        longest_s: f64,
+    },
 }

@@ -16,6 +16,7 @@ pub mod laboratory;
 pub mod measurement;
 pub mod recorded;
 pub mod lack_of_fit;
+pub mod pendulum;
 pub mod regression;
 pub mod residual;
 pub mod rotor_dynamics;
