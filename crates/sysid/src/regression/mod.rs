@@ -15,8 +15,8 @@ mod nonlinear;
 mod total;
 
 pub use linear::{Row, linear};
-pub use total::{Deviations, NoisyPoint, TotalFit, total};
 pub use nonlinear::{Predictor, nonlinear, slopes};
+pub use total::{Deviations, NoisyPoint, TotalFit, total};
 
 /// Why a fit was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
