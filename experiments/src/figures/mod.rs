@@ -13,6 +13,8 @@ mod chapter_5;
 mod chapter_6;
 mod photographs;
 
+pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings};
+
 const CHAPTERS: &[&[Item]] = &[
     photographs::ITEMS,
     chapter_3::ITEMS,
