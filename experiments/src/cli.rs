@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use clap::Parser;
+use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::claim::{Claim, Expected};
@@ -25,8 +25,11 @@ const USAGE: u8 = 2;
 /// Exit codes: 0 when everything came out as registered; 1 when an item failed or the outcome of a claim differs
 /// from the registered one; 2 for bad usage.
 #[derive(Clone, Debug, Parser)]
-#[command(name = "reproduce-figures", version)]
+#[command(name = "reproduce-figures", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
+    /// Something else than figures.
+    #[command(subcommand)]
+    chore: Option<Chore>,
     /// Items to make, such as `6.4 F.1 table-4.3`; all if none is named.
     ids: Vec<String>,
     /// Only the items of this chapter or appendix (`6`, `F`); may be repeated.
@@ -52,9 +55,44 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
+/// What the program does beside figures.
+#[derive(Clone, Debug, Subcommand)]
+enum Chore {
+    /// Measures the vehicle in the virtual laboratory, identifies it, and flies what was identified.
+    ///
+    /// Writes the raw measurements, the vehicle file, a report and a plot. Exit codes: 0 when the identified vehicle flies the
+    /// claims of figure 6.14; 1 when it does not, or something failed; 2 for bad usage.
+    Identify {
+        /// Seed of the measurements' noise.
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// Folder of the output, instead of target/identify.
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+}
+
+fn identify(seed: u64, out: Option<PathBuf>) -> ExitCode {
+    let root = repository_root();
+    let out = out.unwrap_or_else(|| root.join("target/identify"));
+    match crate::identify::run(&Context::new(root, false), seed, &out) {
+        Ok(outcome) => {
+            println!("{}\nwritten to {}", outcome.report, outcome.out.display());
+            ExitCode::from(if outcome.claims_hold { 0 } else { DIFFERS })
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(DIFFERS)
+        }
+    }
+}
+
 /// Runs the program and returns its exit code.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    if let Some(Chore::Identify { seed, out }) = arguments.chore {
+        return identify(seed, out);
+    }
     let known = figures::all();
     let items = match select(&known, &arguments.ids, &arguments.chapter) {
         Ok(items) => items,

@@ -18,6 +18,7 @@ pub mod drawing;
 pub mod figures;
 pub mod flight;
 pub mod gallery;
+pub mod identify;
 pub mod item;
 pub mod output;
 pub mod recordings;

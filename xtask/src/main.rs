@@ -8,6 +8,7 @@ const USAGE: &str = "\
 usage: cargo xtask <chore> [arguments]
 
 chores:
+  identify            measure, identify and fly the vehicle of the virtual laboratory (--help for its arguments)
   reproduce-figures   draw the figures and tables and check their claims (--help for its arguments)
 ";
 
@@ -20,7 +21,11 @@ fn main() -> ExitCode {
     let mut arguments = env::args_os().skip(1);
     let chore = arguments.next().unwrap_or_default();
     match chore.to_str() {
-        Some("reproduce-figures") => reproduce_figures(arguments.collect()),
+        Some("reproduce-figures") => experiments(arguments.collect()),
+        Some(identify @ "identify") => {
+            let chore = OsString::from(identify);
+            experiments(std::iter::once(chore).chain(arguments).collect())
+        }
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");
             ExitCode::SUCCESS
@@ -37,7 +42,7 @@ fn main() -> ExitCode {
 }
 
 /// Builds and runs the package `experiments` in release, with the same arguments and the same exit code.
-fn reproduce_figures(arguments: Vec<OsString>) -> ExitCode {
+fn experiments(arguments: Vec<OsString>) -> ExitCode {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
         .args([

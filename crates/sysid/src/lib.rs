@@ -16,6 +16,7 @@ pub mod laboratory;
 pub mod lack_of_fit;
 pub mod measurement;
 pub mod pendulum;
+pub mod pipeline;
 pub mod recorded;
 pub mod regression;
 pub mod residual;

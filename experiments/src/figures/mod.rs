@@ -18,6 +18,8 @@ mod chapter_7;
 mod glyphs;
 mod photographs;
 
+pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings};
+
 const CHAPTERS: &[&[Item]] = &[
     photographs::ITEMS,
     chapter_1::ITEMS,

@@ -5,10 +5,10 @@ use super::steps::{self, Outcome, Quantity};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Law, Scenario};
+use crate::flight::{Law, Scenario, series};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, Panel, level_name, level_style};
-use quad_dynamics::Level;
+use quad_dynamics::{Level, Vehicle};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -31,35 +31,79 @@ const KEPT: f64 = 1e-9;
 /// Loss of height that a picture of a metre can show, m.
 const LOST: f64 = 1e-3;
 
+/// A claim, and what flights say of it.
+pub(crate) struct Judged {
+    pub(crate) claim: Claim,
+    pub(crate) holds: bool,
+    pub(crate) measured: String,
+}
+
+fn scenario() -> Scenario {
+    Scenario::position_step(Law::C1, settings::flight(), 12.0)
+}
+
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let scenario = Scenario::position_step(Law::C1, settings::flight(), 12.0);
+    let scenario = scenario();
     let outcomes = steps::fly(context, &scenario, Quantity::X, &Level::ALL)?;
     let heights: Vec<Vec<(f64, f64)>> = outcomes.iter().map(|o| o.response(Quantity::Height)).collect();
+    let predicted = predicted_offset(&scenario.vehicle(context)?, &scenario)?;
+    let drawing = Drawing::picture(picture(&outcomes, &heights))
+        .data(data(&outcomes, &heights))
+        .scenario(&scenario)?;
+    let judged = judge(&heights, predicted).into_iter();
+    Ok(judged.fold(drawing, |d, j| d.check(j.claim, j.holds, j.measured)))
+}
+
+/// The figure's claims with another vehicle.
+pub(crate) fn claims_of(vehicle: &Vehicle) -> Result<[Judged; 3], ItemError> {
+    let scenario = scenario();
+    let height = |level: Level| -> Result<Vec<(f64, f64)>, ItemError> {
+        Ok(series(&scenario.fly_vehicle(vehicle, level)?, |r| {
+            Quantity::Height.of(r)
+        }))
+    };
+    let heights: Vec<_> = Level::ALL.into_iter().map(height).collect::<Result<_, _>>()?;
+    Ok(judge(&heights, predicted_offset(vehicle, &scenario)?))
+}
+
+fn judge(heights: &[Vec<(f64, f64)>], predicted: f64) -> [Judged; 3] {
     let excursion = |i: usize| heights[i].iter().map(|(_, h)| h.abs()).fold(0.0, f64::max);
     let others: Vec<f64> = (1..5).map(excursion).collect();
     let last = |i: usize| heights[i].last().map_or(f64::NAN, |(_, h)| *h);
-    // The controller believes in a line through its zero-thrust command; the polynomial differs at hover.
-    let predicted = predicted_offset(context, &scenario)?;
-    Ok(Drawing::picture(picture(&outcomes, &heights))
-        .data(data(&outcomes, &heights))
-        .scenario(&scenario)?
-        .check(LEVEL_1_KEEPS, excursion(0) < KEPT, format!("largest excursion {:.1e} m", excursion(0)))
-        .check(OTHERS_LOSE, others.iter().all(|e| *e > LOST), format!("largest excursions of levels 2 to 5: {others:.4?} m"))
-        .check(
+    let judged = |claim, holds, measured| Judged {
+        claim,
+        holds,
+        measured,
+    };
+    [
+        judged(
+            LEVEL_1_KEEPS,
+            excursion(0) < KEPT,
+            format!("largest excursion {:.1e} m", excursion(0)),
+        ),
+        judged(
+            OTHERS_LOSE,
+            others.iter().all(|e| *e > LOST),
+            format!("largest excursions of levels 2 to 5: {others:.4?} m"),
+        ),
+        // The controller believes in a line through its zero-thrust command; the polynomial differs at hover.
+        judged(
             LEVEL_5_OFFSET,
-            last(4).abs() > LOST && last(3).abs() < LOST && (last(4) - predicted).abs() < 0.1 * predicted.abs(),
+            last(4).abs() > LOST
+                && last(3).abs() < LOST
+                && (last(4) - predicted).abs() < 0.1 * predicted.abs(),
             format!(
                 "{:.4} m at the end, {predicted:.4} m predicted from the rotor's error at hover over the loop's stiffness; \
                  level 4: {:.1e} m",
                 last(4),
                 last(3)
             ),
-        ))
+        ),
+    ]
 }
 
 /// Height offset at rest, m: acceleration missing in hover over ω_n², from the static rotor models alone.
-fn predicted_offset(context: &Context, scenario: &Scenario) -> Result<f64, ItemError> {
-    let vehicle = scenario.vehicle(context)?;
+fn predicted_offset(vehicle: &Vehicle, scenario: &Scenario) -> Result<f64, ItemError> {
     let polynomial = vehicle.require_polynomial_rotor("figure 6.14")?.thrust;
     let voltage = vehicle.require_battery("figure 6.14")?.nominal_voltage;
     let weight_share = vehicle.hover_thrust_per_rotor();

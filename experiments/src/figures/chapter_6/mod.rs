@@ -2,6 +2,9 @@
 
 use crate::item::Item;
 
+pub(crate) use figure_6_14::claims_of as claims_of_figure_6_14;
+pub(crate) use settings::flight as flight_settings;
+
 mod comparison;
 mod figure_6_1;
 mod figure_6_10;

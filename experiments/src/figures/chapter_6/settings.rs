@@ -32,7 +32,7 @@ pub(super) fn height(settling_time_s: f64) -> Settings {
 }
 
 /// Settings for steps in yaw, horizontal steps and trajectories.
-pub(super) fn flight() -> Settings {
+pub(crate) fn flight() -> Settings {
     let with = |settling_time_s| LoopSettings {
         settling_time_s,
         damping: 1.0,

@@ -1,0 +1,177 @@
+//! The virtual laboratory's vehicle, identified: within its stated intervals, flown by all levels.
+
+use super::*;
+use nalgebra::Vector3;
+use quad_dynamics::vehicle::derive::SteadyRotor;
+use quad_dynamics::{AnyQuadrotor, Level, Phenomenon, Vehicle};
+use quad_math::TimeGrid;
+use quad_ndi::{
+    AnyController, AttitudeSettings, C1, FlightPlan, FlightStatus, Flyer, LoopSettings, Reference, Settings,
+};
+use std::num::NonZeroU64;
+
+/// Settling times that all levels take: 2 s in height and yaw, 5 s in position.
+fn settings() -> Settings {
+    let with = |settling_time_s| LoopSettings {
+        settling_time_s,
+        damping: 1.0,
+        pole_ratio: 20.0,
+    };
+    Settings {
+        height: with(2.0),
+        yaw: with(2.0),
+        position: with(5.0),
+        attitude: AttitudeSettings {
+            frequency_ratio: 10.0,
+            damping: 1.0,
+            pole_ratio: 5.0,
+        },
+    }
+}
+
+/// The true vehicle: the nominal one with its centre of mass moved by millimetres and drag and inertia unlike the nominal ones.
+fn truth() -> VehicleFile {
+    let mut file = nominal();
+    file.airframe.centre_of_mass_m.value = [0.004, -0.006, 0.012];
+    file.airframe.mass_kg.value = 1.45;
+    file.airframe.inertia_xx_kg_m2.value = 0.032;
+    file.drag.as_mut().unwrap().quadratic_n_s2_m2.value = [0.045, 0.031, 0.061];
+    file
+}
+
+fn nominal() -> VehicleFile {
+    VehicleFile::from_toml_str(include_str!("../../../../data/vehicles/qball-x4.toml"), "nominal").unwrap()
+}
+
+fn identified(seed: u64) -> Identified {
+    let vehicle = Vehicle::from_file(&truth(), "truth").unwrap();
+    let measurements = VirtualLaboratory::new(settings())
+        .measure(&vehicle, seed)
+        .unwrap();
+    identify(&measurements, &nominal()).unwrap()
+}
+
+/// A number of a file by its key.
+fn number(file: &VehicleFile, key: &str) -> f64 {
+    let (path, index) = key.split_once('[').map_or((key, None), |(path, rest)| {
+        (path, Some(rest.trim_end_matches(']').parse::<usize>().unwrap()))
+    });
+    let table: toml::Table = file.to_toml().parse().unwrap();
+    let (group, name) = path.split_once('.').unwrap();
+    let value = &table[group][name]["value"];
+    index.map_or(value, |i| &value[i]).as_float().unwrap()
+}
+
+/// The truth of an identified number. Rotor dynamics: the closed form of the linearised rotor at the mean duty. Cubics and
+/// gains: the nominal file's derivation, noise-free fits over the same duties and voltages. The others: the true file.
+fn truth_of(key: &str, dynamic: &[DynamicSample]) -> f64 {
+    let file = truth();
+    let steady = SteadyRotor::of(&Vehicle::from_file(&file, "truth").unwrap()).unwrap();
+    let mean = dynamic.iter().map(|s| s.duty).sum::<f64>() / dynamic.len() as f64;
+    let speed = steady.speed(steady.effective_voltage(mean - 0.05, 11.1));
+    let linear = steady.rotor_dynamics(speed);
+    match key {
+        "linear_rotor.bandwidth_rad_s" => steady.motor_pole(speed),
+        "rotor_dynamics.thrust_c1_per_s" => linear.thrust_c1,
+        "rotor_dynamics.thrust_c2_per_s2" => linear.thrust_c2,
+        "rotor_dynamics.torque_c1_per_s" => linear.torque_c1,
+        "rotor_dynamics.torque_c2_per_s2" => linear.torque_c2,
+        "rotor_dynamics.torque_c3_per_s" => linear.torque_c3,
+        "rotor_dynamics.torque_c4_per_s2" => linear.torque_c4,
+        _ => number(&file, key),
+    }
+}
+
+/// Every identified number lies within four standard errors of the truth: of 27 independent normal numbers, one in 600 runs
+/// would not. Four of Student's t for the support test, which has 12 degrees of freedom or more, is one in 80 runs of its four.
+#[test]
+fn exact_identified_numbers_lie_within_four_standard_errors_of_the_truth() {
+    let vehicle = Vehicle::from_file(&truth(), "truth").unwrap();
+    let measurements = VirtualLaboratory::new(settings()).measure(&vehicle, 1).unwrap();
+    let found = identify(&measurements, &nominal()).unwrap();
+    assert_eq!(found.parameters.len(), 27);
+    let mut outside = Vec::new();
+    for p in &found.parameters {
+        let truth = truth_of(p.key, &measurements.dynamic);
+        let z = (p.estimate.value - truth) / p.estimate.standard_error;
+        println!(
+            "{:<40} {:>12.6} ± {:>10.2e}  truth {truth:>12.6}  z {z:>6.2}",
+            p.key, p.estimate.value, p.estimate.standard_error
+        );
+        if !(z.abs() <= 4.0) {
+            outside.push(p.key);
+        }
+    }
+    for r in &found.remarks {
+        println!("{}: {}", r.bench, r.warning);
+    }
+    assert!(outside.is_empty(), "{outside:?}");
+}
+
+#[test]
+fn exact_sources_and_standard_errors_say_what_was_identified() {
+    let found = identified(2);
+    for p in &found.parameters {
+        assert_eq!(number(&found.file, p.key), p.estimate.value, "{}", p.key);
+    }
+    let motor = found.file.motor.as_ref().unwrap();
+    assert!(
+        motor
+            .resistance_ohm
+            .source
+            .starts_with("not identified, taken from the nominal file")
+    );
+    assert!(
+        found
+            .file
+            .airframe
+            .mass_kg
+            .source
+            .starts_with("identified: support forces")
+    );
+    assert!(found.file.airframe.mass_kg.standard_error.unwrap() > 0.0);
+    let again = VehicleFile::from_toml_str(&found.file.to_toml(), "identified").unwrap();
+    assert_eq!(again, found.file);
+}
+
+/// All five levels of the identified vehicle fly a step of one metre and come to rest there, within the error that the rotor's
+/// line makes of the height at level 5 (some centimetres).
+#[test]
+fn agree_all_levels_of_the_identified_vehicle_fly_a_step() {
+    let found = identified(3);
+    let vehicle = Vehicle::from_file(&found.file, "identified").unwrap();
+    for level in Level::ALL {
+        let phenomena = level.phenomena().without(Phenomenon::VoltageSag);
+        let quadrotor = AnyQuadrotor::hovering(level, &vehicle, &phenomena, Vector3::zeros(), 0.0).unwrap();
+        let controller = AnyController::C1(C1::new(&vehicle, &settings()).unwrap().into());
+        let plan = FlightPlan {
+            grid: TimeGrid::from_seconds(1e-3, 15.0).unwrap(),
+            record_every: NonZeroU64::new(100).unwrap(),
+        };
+        let flyer = Flyer::new(&vehicle, quadrotor, controller).unwrap();
+        let log = flyer.fly(&plan, |_| Reference::hold(Vector3::new(1.0, 0.0, 0.0), 0.0));
+        assert_eq!(log.status, FlightStatus::Completed);
+        let end = log.records.last().unwrap().flight.position;
+        println!("level {}: {end:?}", level.number());
+        assert!(
+            (end - Vector3::x()).norm() < 0.15,
+            "level {}: {end:?}",
+            level.number()
+        );
+    }
+}
+
+#[test]
+fn exact_a_nominal_file_without_groups_is_refused() {
+    let vehicle = Vehicle::from_file(&truth(), "truth").unwrap();
+    let measurements = VirtualLaboratory::new(settings()).measure(&vehicle, 4).unwrap();
+    for group in ["propeller", "drag"] {
+        let mut file = nominal();
+        match group {
+            "propeller" => file.propeller = None,
+            _ => file.drag = None,
+        }
+        let refused = identify(&measurements, &file);
+        assert_eq!(refused, Err(PipelineError::MissingGroup { group }));
+    }
+}
