@@ -3,6 +3,7 @@
 //! Each instrument takes the truth and adds what real instruments add: noise, bias, quantisation, limits of range and a
 //! sampling rate. Everything is seeded: the generator is an argument (ChaCha8, `rand_chacha`).
 
+pub mod load_cells;
 pub mod pendulum;
 mod sensor;
 pub mod supports;
