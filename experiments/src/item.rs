@@ -94,6 +94,10 @@ pub enum Origin {
     Derived,
     /// A drawing without data.
     Schematic,
+    /// Measured in the virtual laboratory: simulated, with the imperfections of sensors.
+    VirtualLaboratory,
+    /// Printed by a manufacturer.
+    DataSheet,
 }
 
 impl Origin {
@@ -105,6 +109,8 @@ impl Origin {
             Self::MeasuredAndSimulated => "measured and simulated data",
             Self::Derived => "derived from equations and parameters",
             Self::Schematic => "schematic drawing",
+            Self::VirtualLaboratory => "virtual laboratory",
+            Self::DataSheet => "data-sheet values",
         }
     }
 }
