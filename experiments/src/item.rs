@@ -96,6 +96,8 @@ pub enum Origin {
     Schematic,
     /// Measured on the virtual laboratory: simulated vehicles behind simulated sensors.
     VirtualLaboratory,
+    /// Printed by a manufacturer.
+    DataSheet,
 }
 
 impl Origin {
@@ -108,6 +110,7 @@ impl Origin {
             Self::Derived => "derived from equations and parameters",
             Self::Schematic => "schematic drawing",
             Self::VirtualLaboratory => "virtual laboratory",
+            Self::DataSheet => "data-sheet values",
         }
     }
 }

@@ -14,6 +14,7 @@ pub mod estimate;
 pub mod flight;
 pub mod laboratory;
 pub mod lack_of_fit;
+pub mod load_cell;
 pub mod measurement;
 pub mod pendulum;
 pub mod pipeline;
