@@ -91,7 +91,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             measurements = "propellers/apc_sf_10x4.7_static.csv, propellers/apc_sf_10x4.7_advance.csv"
             diameter_m = 0.254
             air_density_kg_m3 = 1.225
-            law = "T = C_T ρ n² D⁴, Q = C_Q ρ n² D⁵, least squares without weights; C = c_0 + c_1 (Ω/Ω_ref − 1) at 4500 rpm"
+            law = "T = C_T ρ n² D⁴, Q = C_Q ρ n² D⁵, least squares without weights; C = c_0 + c_1 (Ω/Ω_ref − 1), Ω_ref at 4500 rpm"
         })?
         .check(
             RESIDUALS,

@@ -87,7 +87,8 @@ fn table<T: DeserializeOwned>(context: &Context, relative: &str) -> Result<Vec<T
 pub(super) struct Identified {
     /// `C_T` or `C_Q` with one constant.
     pub(super) constant: Fit<1>,
-    /// The same with a line over the speed, which leaves a seventh of the residual; a logarithm would leave more.
+    /// The same with a line over the speed. A logarithm leaves less residual in thrust and more in torque, but is further off at
+    /// hover and misses the slow end by more than 2 %.
     pub(super) varying: SpeedDependence,
 }
 
