@@ -4,6 +4,8 @@
 
 use crate::item::Item;
 
+mod appendix_b;
+mod appendix_e;
 mod appendix_f;
 mod appendix_g;
 mod chapter_3;
@@ -18,6 +20,8 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_4::ITEMS,
     chapter_5::ITEMS,
     chapter_6::ITEMS,
+    appendix_b::ITEMS,
+    appendix_e::ITEMS,
     appendix_f::ITEMS,
     appendix_g::ITEMS,
 ];
