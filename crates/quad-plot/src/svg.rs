@@ -121,6 +121,15 @@ impl Svg {
         self.body.push('\n');
     }
 
+    /// Adds another picture with its upper left corner at a point.
+    pub fn place(&mut self, picture: &Self, corner: Point) {
+        let (x, y) = (number(corner.x), number(corner.y));
+        self.raw(&format!(
+            "<g transform=\"translate({x} {y})\">\n{}</g>",
+            picture.body
+        ));
+    }
+
     /// Adds a rich text; `point` is on its base line.
     pub fn text(&mut self, point: Point, content: &str, look: TextLook) {
         let anchor = match look.anchor {

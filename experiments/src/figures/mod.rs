@@ -4,6 +4,7 @@
 
 use crate::item::Item;
 
+mod appendix_b;
 mod appendix_c;
 mod appendix_e;
 mod appendix_f;
@@ -29,6 +30,7 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_5::ITEMS,
     chapter_6::ITEMS,
     chapter_7::ITEMS,
+    appendix_b::ITEMS,
     appendix_c::ITEMS,
     appendix_e::ITEMS,
     appendix_f::ITEMS,

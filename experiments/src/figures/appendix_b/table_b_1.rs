@@ -1,0 +1,55 @@
+//! Table B.1: specification of a motion-capture camera.
+
+use crate::data::DataTable;
+use crate::drawing::{DisplayTable, Drawing};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+
+/// The table.
+pub(super) const ITEM: Item = Item {
+    id: "table-B.1",
+    title: "Specification of the motion-capture system",
+    description: "Data-sheet values of a camera of the time, OptiTrack V100:R2 (NaturalPoint; later sold as Flex 3). A stand-in: the \
+                  source's laboratory had a system of this maker, but its model and values are not available. The last two rows follow from \
+                  the ones above.",
+    kind: Kind::Table,
+    origin: Origin::DataSheet,
+    claims: &[],
+    make: Make::Draw(draw),
+};
+
+/// Pixels across, and the horizontal field of view, degrees.
+const PIXELS: f64 = 640.0;
+const FIELD_DEG: f64 = 46.0;
+/// A distance in a laboratory, m.
+const DISTANCE_M: f64 = 4.0;
+
+fn draw(_context: &Context) -> Result<Drawing, ItemError> {
+    let half = (0.5 * FIELD_DEG).to_radians().tan();
+    let width_m = 2.0 * DISTANCE_M * half;
+    let rows = [
+        ("Resolution", "640 × 480".to_owned(), "pixels"),
+        ("Frame rate", "100".to_owned(), "frames/s"),
+        ("Latency", "10".to_owned(), "ms"),
+        (
+            "Horizontal field of view, standard lens",
+            format!("{FIELD_DEG:.0}"),
+            "°",
+        ),
+        ("Shutter", "global".to_owned(), "–"),
+        ("Illumination", "850".to_owned(), "nm, infrared"),
+        ("Interface", "USB 2.0".to_owned(), "–"),
+        ("Width seen at 4 m", format!("{width_m:.2}"), "m"),
+        (
+            "Width of a pixel at 4 m",
+            format!("{:.1}", 1e3 * width_m / PIXELS),
+            "mm",
+        ),
+    ];
+    let mut shown = DisplayTable::new(["Property", "Value", "Unit"]);
+    let mut data = DataTable::new(["property", "value", "unit"]);
+    for (name, value, unit) in rows {
+        data.push([name.into(), value.as_str().into(), unit.into()]);
+        shown.push([name.to_owned(), value, unit.to_owned()]);
+    }
+    Ok(Drawing::table(shown).data(data))
+}

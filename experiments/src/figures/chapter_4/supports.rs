@@ -1,0 +1,98 @@
+//! The support test of this chapter: the vehicle's cage on three scales, in two orientations.
+
+use super::bench;
+use crate::data::{Cell, DataTable};
+use crate::flight::NOMINAL_VEHICLE;
+use crate::item::{Context, ItemError};
+use crate::plot::space::Point3;
+use nalgebra::Vector3;
+use quad_dynamics::Vehicle;
+use serde::Serialize;
+use sysid::centre_of_mass::{CentreOfMass, Placing, locate};
+use sysid::laboratory::supports::{SupportRig, Triangle, icosahedral_cage};
+use sysid::laboratory::{Sensor, generator};
+
+/// Seed of the test.
+const SEED: u64 = 4;
+/// Circumscribed radius of the cage, m: about the size of the vehicle, assumed.
+pub(super) const CAGE_RADIUS_M: f64 = 0.35;
+/// Faces of the cage on which the vehicle stands: upright, and tilted by 70.5°.
+const FACES: [usize; 2] = [0, 5];
+
+/// Everything that determines the test.
+#[derive(Serialize)]
+pub(super) struct Settings {
+    vehicle: &'static str,
+    centre_of_mass_m: [f64; 3],
+    cage_radius_m: f64,
+    faces: [usize; 2],
+    seed: u64,
+    rig: SupportRig,
+}
+
+/// Placings on a rig and the centre of mass from them.
+pub(super) struct SupportTest {
+    pub(super) settings: Settings,
+    pub(super) vehicle: Vehicle,
+    pub(super) placings: Vec<Placing>,
+    pub(super) found: CentreOfMass,
+}
+
+/// The support triangles of both orientations.
+pub(super) fn triangles() -> [Triangle; 2] {
+    let cage = icosahedral_cage(CAGE_RADIUS_M);
+    FACES.map(|face| cage[face])
+}
+
+/// The rig without imperfections, one placing per orientation.
+pub(super) fn perfect_rig() -> SupportRig {
+    SupportRig {
+        scales_n: [Sensor::PERFECT; 3],
+        position_m: Sensor::PERFECT,
+        levelling_rad: 0.0,
+        placings: 1,
+    }
+}
+
+/// Does the test.
+pub(super) fn test(context: &Context, rig: SupportRig) -> Result<SupportTest, ItemError> {
+    let vehicle = bench::vehicle(context)?;
+    let placings = rig.measure(&vehicle, &triangles(), &mut generator(SEED))?;
+    let found = locate(&placings)?;
+    Ok(SupportTest {
+        settings: Settings {
+            vehicle: NOMINAL_VEHICLE,
+            centre_of_mass_m: bench::CENTRE_OF_MASS_M,
+            cage_radius_m: CAGE_RADIUS_M,
+            faces: FACES,
+            seed: SEED,
+            rig,
+        },
+        vehicle,
+        placings,
+        found,
+    })
+}
+
+/// The placings in the columns that [`Placing`] reads.
+pub(super) fn table(placings: &[Placing]) -> DataTable {
+    let mut columns = vec!["orientation".to_owned()];
+    for i in 1..=3 {
+        columns.extend(["x", "y", "z"].map(|axis| format!("{axis}_{i}_m")));
+        columns.push(format!("force_{i}_n"));
+    }
+    let mut data = DataTable::new(columns);
+    for placing in placings {
+        let mut row = vec![Cell::Number(f64::from(placing.orientation))];
+        for (point, force) in placing.points().iter().zip(placing.forces()) {
+            row.extend(point.iter().chain([&force]).map(|value| Cell::Number(*value)));
+        }
+        data.rows.push(row);
+    }
+    data
+}
+
+/// A point of the airframe in a picture whose third axis points up, in millimetres.
+pub(super) fn pictured(p: &Vector3<f64>) -> Point3 {
+    [1e3 * p.x, 1e3 * p.y, -1e3 * p.z]
+}
