@@ -132,7 +132,7 @@ impl Placing {
         let normal = a.cross(&b);
         let sine = normal.norm() / (a.norm() * b.norm());
         // NaN where two points coincide.
-        if !(sine > LEAST_SINE) {
+        if sine.is_nan() || sine <= LEAST_SINE {
             return Err(CentreOfMassError::InARow { index, sine });
         }
         let centre_of_pressure =

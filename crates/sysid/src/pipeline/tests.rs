@@ -98,7 +98,7 @@ fn exact_identified_numbers_lie_within_four_standard_errors_of_the_truth() {
             "{:<40} {:>12.6} ± {:>10.2e}  truth {truth:>12.6}  z {z:>6.2}",
             p.key, p.estimate.value, p.estimate.standard_error
         );
-        if !(z.abs() <= 4.0) {
+        if z.is_nan() || z.abs() > 4.0 {
             outside.push(p.key);
         }
     }
