@@ -94,8 +94,10 @@ pub enum Origin {
     Derived,
     /// A drawing without data.
     Schematic,
-    /// Measured on the virtual laboratory: simulated vehicles behind simulated sensors.
+    /// Measured in the virtual laboratory: simulated, with the imperfections of sensors.
     VirtualLaboratory,
+    /// Printed by a manufacturer.
+    DataSheet,
 }
 
 impl Origin {
@@ -108,6 +110,7 @@ impl Origin {
             Self::Derived => "derived from equations and parameters",
             Self::Schematic => "schematic drawing",
             Self::VirtualLaboratory => "virtual laboratory",
+            Self::DataSheet => "data-sheet values",
         }
     }
 }

@@ -61,6 +61,24 @@ impl Estimate {
         }
     }
 
+    /// Probability of an estimate at least as far from zero if the truth is zero, by Student's t.
+    pub fn p_value_of_zero(&self) -> f64 {
+        if self.standard_error == 0.0 {
+            return if self.value == 0.0 { 1.0 } else { 0.0 };
+        }
+        let t = (self.value / self.standard_error).abs();
+        StudentsT::new(0.0, 1.0, self.degrees_of_freedom.clamp(f64::MIN_POSITIVE, 1e6))
+            .map_or(f64::NAN, |student| 2.0 * student.sf(t))
+    }
+
+    /// Quantile of Student's t with these degrees of freedom.
+    ///
+    /// # Panics
+    /// If the probability is not between 0 and 1: a programming error.
+    pub fn quantile(probability: f64, degrees_of_freedom: f64) -> f64 {
+        student_quantile(probability, degrees_of_freedom)
+    }
+
     /// Half the width of the 95 % interval.
     pub fn half_width(&self) -> f64 {
         student_quantile(0.5 + 0.5 * CONFIDENCE, self.degrees_of_freedom) * self.standard_error
@@ -296,5 +314,24 @@ pub enum Warning {
         gaps: usize,
         /// The longest, s.
         longest_s: f64,
+    },
+    /// A line that is none.
+    #[error(
+        "the samples bend: they depart from a straight line by {:.2} % of the span, more than their scatter explains",
+        100.0 * departure
+    )]
+    NotStraight {
+        /// Largest departure over the span.
+        departure: f64,
+    },
+    /// A value beyond the range that was calibrated.
+    #[error("{value} lies beyond the calibrated range from {from} to {to}")]
+    Extrapolated {
+        /// The value.
+        value: f64,
+        /// Lower end of the range.
+        from: f64,
+        /// Upper end of the range.
+        to: f64,
     },
 }

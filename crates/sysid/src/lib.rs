@@ -15,6 +15,7 @@ pub mod flight;
 pub mod laboratory;
 pub mod lack_of_fit;
 pub mod measurement;
+pub mod load_cell;
 pub mod pendulum;
 pub mod pipeline;
 pub mod recorded;

@@ -4,6 +4,7 @@
 //! sampling rate. Everything is seeded: the generator is an argument (ChaCha8, `rand_chacha`).
 
 pub mod flights;
+pub mod load_cells;
 pub mod pendulum;
 mod sensor;
 pub mod supports;

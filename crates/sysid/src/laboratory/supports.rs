@@ -86,7 +86,8 @@ pub type Triangle = [Vector3<f64>; 3];
 /// The 20 faces of a cage in the shape of an icosahedron with this circumscribed radius, m.
 ///
 /// A stand-in for the protective cage, whose dimensions are not published: any rigid set of points serves the method.
-/// The first face is one on which the vehicle stands upright or nearly so; others follow in the order of their tilt.
+/// On the first face the vehicle stands upright, a vertex forward; the others follow in the order of their tilt: three at 41.8°, six
+/// at 70.5° and so on.
 pub fn icosahedral_cage(radius_m: f64) -> Vec<Triangle> {
     let phi = 0.5 * (1.0 + 5_f64.sqrt());
     let mut vertices = Vec::new();
@@ -108,9 +109,29 @@ pub fn icosahedral_cage(radius_m: f64) -> Vec<Triangle> {
             faces.extend(third.map(|c| [*a, *b, *c].map(|v| v.normalize() * radius_m)));
         }
     }
-    let depth = |face: &Triangle| face.iter().map(|v| v.z).sum::<f64>();
-    // z is down: the lowest face first.
-    faces.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
+    stood_upright(faces)
+}
+
+/// The faces turned so that one is level at the bottom with a vertex forward, in the order of their height above it.
+fn stood_upright(mut faces: Vec<Triangle>) -> Vec<Triangle> {
+    let centroid = |face: &Triangle| face.iter().sum::<Vector3<f64>>() / 3.0;
+    let Some(first) = faces.first().copied() else {
+        return faces;
+    };
+    let down = centroid(&first).normalize();
+    let ahead = (first[0] - down * down.dot(&first[0])).normalize();
+    // Rows: the new axes along the old ones.
+    let turn = Matrix3::from_rows(&[
+        ahead.transpose(),
+        down.cross(&ahead).transpose(),
+        down.transpose(),
+    ]);
+    for point in faces.iter_mut().flatten() {
+        *point = turn * *point;
+    }
+    // In millionths of the radius, so that rounding does not decide between faces of equal height.
+    let radius = first[0].norm();
+    faces.sort_by_key(|face| (-1e6 * centroid(face).z / radius).round() as i64);
     faces
 }
 

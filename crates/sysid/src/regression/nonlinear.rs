@@ -17,6 +17,9 @@ pub trait Predictor<const N: usize> {
 /// Evaluations allowed per parameter before the iteration is called unfinished.
 const PATIENCE: usize = 200;
 
+/// Residual that stands for none: larger than any, and its square is still finite.
+const FORBIDDEN: f64 = 1e100;
+
 /// Fits a model to data by least squares from a start.
 ///
 /// Data of unequal noise: divide data and predictions by each datum's standard deviation.
@@ -47,7 +50,8 @@ pub fn nonlinear<const N: usize>(
         model,
         parameters: start,
     };
-    if problem.residuals().is_none() || problem.jacobian().is_none() {
+    let finite = problem.residual_values().iter().all(|r| r.is_finite());
+    if !finite || problem.jacobian().is_none() {
         return Err(FitError::NoStart { start: start.into() });
     }
     let (problem, report) = LevenbergMarquardt::new()
@@ -114,10 +118,12 @@ impl<M: Predictor<N>, const N: usize> LeastSquaresProblem<f64, Dyn, Const<N>> fo
 
     fn residuals(&self) -> Option<OVector<f64, Dyn>> {
         let residuals = self.residual_values();
-        residuals
-            .iter()
-            .all(|r| r.is_finite())
-            .then(|| DVector::from_vec(residuals))
+        if residuals.iter().all(|r| r.is_finite()) {
+            Some(DVector::from_vec(residuals))
+        } else {
+            // A step to where the model has no prediction is a step too far: it is taken back and a shorter one tried.
+            Some(DVector::repeat(residuals.len(), FORBIDDEN))
+        }
     }
 
     fn jacobian(&self) -> Option<OMatrix<f64, Dyn, Const<N>>> {

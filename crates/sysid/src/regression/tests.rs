@@ -79,3 +79,21 @@ fn exact_refusals() {
         Err(FitError::NotFinite { index: 1 })
     );
 }
+
+/// `y = √a`, without a value below zero.
+struct Root;
+
+impl Predictor<1> for Root {
+    fn predict<R: Real>(&self, &[a]: &[R; 1]) -> Vec<R> {
+        vec![a.simd_sqrt(); 3]
+    }
+}
+
+#[test]
+fn exact_a_step_beyond_the_model_is_taken_back() {
+    // From 4, Newton's step ends at 4 − (2 − 0.1)/(1/4) = −3.6, where the root is NaN.
+    let fit = nonlinear(&[0.09, 0.1, 0.11], &Root, [4.0]).unwrap();
+    assert!(fit.convergence.unwrap().converged);
+    // The square of the mean; the iteration ends at about the root of rounding.
+    assert_relative_eq!(fit.values()[0], 0.01, epsilon = 1e-8);
+}
