@@ -5,6 +5,7 @@
 use crate::item::Item;
 
 mod appendix_c;
+mod appendix_e;
 mod appendix_f;
 mod appendix_g;
 mod chapter_3;
@@ -22,6 +23,7 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_5::ITEMS,
     chapter_6::ITEMS,
     appendix_c::ITEMS,
+    appendix_e::ITEMS,
     appendix_f::ITEMS,
     appendix_g::ITEMS,
 ];

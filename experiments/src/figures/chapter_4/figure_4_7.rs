@@ -1,9 +1,9 @@
 //! Figure 4.7: thrust, torque and their coefficients against rotor speed, measured, with the fitted laws.
 
-use super::propeller::{self, Identified, Row, SCALE};
-use super::propeller_panels::{coefficient_panel, force_panel, stream_panel};
+use super::advance::{SMALL_ADVANCE, small_advance};
+use super::propeller::{self, SCALE};
+use super::propeller_panels::{coefficient_panel, force_panel, stream_panel, table};
 use crate::claim::Claim;
-use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, reference_style};
@@ -42,7 +42,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let reference = rad_per_s(REFERENCE_RPM);
     let thrust = propeller::identify(&rows, Quantity::Thrust, reference)?;
     let torque = propeller::identify(&rows, Quantity::Torque, reference)?;
-    let slope = advance_slope(&propeller::small_advance(&stream, &rows))?;
+    let slope = advance_slope(&small_advance(&stream, &rows))?;
     let figure = Figure::columns(3)
         .panel(force_panel("Thrust *T*, N", &rows, Quantity::Thrust, &thrust))
         .panel(coefficient_panel(
@@ -58,7 +58,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             .line(
                 "line, *J* ≤ 0.3",
                 reference_style(),
-                [0.0, propeller::SMALL_ADVANCE].map(|j| (j, slope.values()[0] + slope.values()[1] * j)),
+                [0.0, SMALL_ADVANCE].map(|j| (j, slope.values()[0] + slope.values()[1] * j)),
             ),
         )
         .panel(force_panel("Torque *Q*, N m", &rows, Quantity::Torque, &torque))
@@ -91,7 +91,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             measurements = "propellers/apc_sf_10x4.7_static.csv, propellers/apc_sf_10x4.7_advance.csv"
             diameter_m = 0.254
             air_density_kg_m3 = 1.225
-            law = "T = C_T ρ n² D⁴, Q = C_Q ρ n² D⁵, least squares without weights; C = c_0 + c_1 (Ω/Ω_ref − 1) at 4500 rpm"
+            law = "T = C_T ρ n² D⁴, Q = C_Q ρ n² D⁵, least squares without weights; C = c_0 + c_1 (Ω/Ω_ref − 1), Ω_ref at 4500 rpm"
         })?
         .check(
             RESIDUALS,
@@ -126,29 +126,4 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             both.iter().all(|i| i.varying.is_significant(1e-6)),
             format!("p = {:.0e} for C_T, {:.0e} for C_Q", p_values[0], p_values[1]),
         ))
-}
-
-fn table(rows: &[Row], thrust: &Identified, torque: &Identified) -> DataTable {
-    let mut data = DataTable::new([
-        "speed_rpm",
-        "thrust_n",
-        "torque_n_m",
-        "fitted_thrust_n",
-        "fitted_torque_n_m",
-        "fitted_c_t_of_speed",
-        "fitted_c_q_of_speed",
-    ]);
-    for r in rows {
-        let fitted = |quantity, i: &Identified| i.constant.values()[0] * SCALE.unit(quantity, r.speed());
-        data.push([
-            r.rpm.into(),
-            r.value(Quantity::Thrust).into(),
-            r.value(Quantity::Torque).into(),
-            fitted(Quantity::Thrust, thrust).into(),
-            fitted(Quantity::Torque, torque).into(),
-            thrust.varying.at(r.speed()).value.into(),
-            torque.varying.at(r.speed()).value.into(),
-        ]);
-    }
-    data
 }

@@ -2,7 +2,9 @@
 
 use crate::item::Item;
 
+mod advance;
 mod characterisation;
+mod dynamics;
 mod figure_4_10;
 mod figure_4_11;
 mod figure_4_12;
@@ -17,6 +19,9 @@ mod propeller;
 mod propeller_panels;
 mod replays;
 mod table_4_3;
+mod table_4_4;
+mod table_4_5;
+mod table_4_6;
 
 /// The items of this chapter.
 pub(super) const ITEMS: &[Item] = &[
@@ -28,4 +33,7 @@ pub(super) const ITEMS: &[Item] = &[
     figure_4_12::ITEM,
     figure_4_13::ITEM,
     table_4_3::ITEM,
+    table_4_4::ITEM,
+    table_4_5::ITEM,
+    table_4_6::ITEM,
 ];

@@ -40,14 +40,15 @@ pub(super) fn read(context: &Context) -> Result<Option<MotorSteps>, ItemError> {
         .collect();
     let ends = steps.iter().copied().skip(1).chain([samples.len()]);
     let fitted = steps.iter().zip(ends).map(|(&step, end)| {
-        let record = Record::new(&samples[step.saturating_sub(LEAD)..end])?;
+        let lead = LEAD.min(step);
+        let record = Record::new(&samples[step - lead..end])?;
         let fit = identify(&record, Structure::FirstOrder, Start::Equilibrium)?;
         let Coefficients::FirstOrder { bandwidth } = fit.coefficients else {
             return Err(ItemError::new("a first-order fit has one coefficient"));
         };
         Ok(FittedStep {
-            times_s: record.times().to_vec(),
-            simulated: fit.simulated,
+            times_s: record.times()[lead..].to_vec(),
+            simulated: fit.simulated[lead..].to_vec(),
             time_constant_s: bandwidth.mapped(1.0 / bandwidth.value, bandwidth.value.powi(-2)),
             rises: samples[step].input > samples[step - 1].input,
         })
@@ -60,7 +61,9 @@ impl MotorSteps {
     /// The record with its fits; the unit of the speed is not stated by the source.
     pub(super) fn panel(&self) -> Panel {
         let measured = self.samples.iter().map(|s| (s.time_s, s.output / 1e3));
-        let panel = Panel::new("Time *t*, s", "Motor speed, 1000 units").caption("real motor, first order");
+        let panel = Panel::new("Time *t*, s", "Motor speed, 1000 units")
+            .x_range(0.0, 4.0)
+            .caption("real motor, first order");
         let panel = panel.markers("measured", reference_style(), measured);
         self.steps.iter().fold(panel, |panel, step| {
             let points = step

@@ -87,7 +87,8 @@ fn table<T: DeserializeOwned>(context: &Context, relative: &str) -> Result<Vec<T
 pub(super) struct Identified {
     /// `C_T` or `C_Q` with one constant.
     pub(super) constant: Fit<1>,
-    /// The same with a line over the speed, which leaves a seventh of the residual; a logarithm would leave more.
+    /// The same with a line over the speed. A logarithm leaves less residual in thrust and more in torque, but is further off at
+    /// hover and misses the slow end by more than 2 %.
     pub(super) varying: SpeedDependence,
 }
 
@@ -114,29 +115,6 @@ pub(super) fn identify(
 /// Root mean square residual `√(Σ r²/n)`, in the unit of the data.
 pub(super) fn rms(goodness: &Goodness, points: usize) -> f64 {
     goodness.standard_deviation * (goodness.degrees_of_freedom / points as f64).sqrt()
-}
-
-/// Largest advance ratio of the line: the coefficient bends beyond.
-pub(super) const SMALL_ADVANCE: f64 = 0.3;
-
-/// The run at about hover speed, and the static row at its speed, which is its point at rest.
-pub(super) const HOVER_RUN: &str = "kt0836";
-const HOVER_RUN_RPM: f64 = 4029.0;
-
-/// The samples of the hover run at small advance ratios, the static point first.
-pub(super) fn small_advance(rows: &[AdvanceRow], at_rest: &[Row]) -> Vec<AdvanceSample> {
-    let rest = at_rest.iter().find(|row| row.rpm == HOVER_RUN_RPM);
-    let rest = rest.map(|row| AdvanceSample {
-        advance_ratio: 0.0,
-        thrust_coefficient: row.thrust_coefficient,
-    });
-    let moving = rows
-        .iter()
-        .filter(|row| row.run == HOVER_RUN)
-        .map(|row| row.sample);
-    rest.into_iter()
-        .chain(moving.filter(|sample| sample.advance_ratio <= SMALL_ADVANCE))
-        .collect()
 }
 
 /// The coefficient of the table at a speed, rpm, by linear interpolation.

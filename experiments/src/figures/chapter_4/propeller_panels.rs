@@ -1,6 +1,7 @@
-//! The panels of figure 4.7.
+//! The panels and the data of figure 4.7.
 
 use super::propeller::{AdvanceRow, Identified, Row, SCALE};
+use crate::data::DataTable;
 use crate::plot::panel::BandPoint;
 use crate::plot::style::{Look, reference_style};
 use crate::plot::{Panel, series_style};
@@ -95,4 +96,30 @@ pub(super) fn stream_panel(label: &str, rows: &[AdvanceRow], value: fn(&AdvanceR
         let points = run.map(|row| (row.sample.advance_ratio, value(row)));
         panel.markers(format!("{:.0} rpm", 1e3 * speed), series_style(2 + i), points)
     })
+}
+
+/// The measurements and what the laws make of them.
+pub(super) fn table(rows: &[Row], thrust: &Identified, torque: &Identified) -> DataTable {
+    let mut data = DataTable::new([
+        "speed_rpm",
+        "thrust_n",
+        "torque_n_m",
+        "fitted_thrust_n",
+        "fitted_torque_n_m",
+        "fitted_c_t_of_speed",
+        "fitted_c_q_of_speed",
+    ]);
+    for r in rows {
+        let fitted = |quantity, i: &Identified| i.constant.values()[0] * SCALE.unit(quantity, r.speed());
+        data.push([
+            r.rpm.into(),
+            r.value(Quantity::Thrust).into(),
+            r.value(Quantity::Torque).into(),
+            fitted(Quantity::Thrust, thrust).into(),
+            fitted(Quantity::Torque, torque).into(),
+            thrust.varying.at(r.speed()).value.into(),
+            torque.varying.at(r.speed()).value.into(),
+        ]);
+    }
+    data
 }

@@ -1,13 +1,13 @@
 //! Table 4.3: identified thrust and torque coefficients against the published ones.
 
-use super::propeller::{self, Identified, Row};
+use super::advance::{damping_error, small_advance};
+use super::propeller::{self, Identified};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::{DisplayTable, Drawing};
 use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use quad_dynamics::Vehicle;
-use quad_dynamics::vehicle::derive::{SteadyRotor, axial_damping, rad_per_s};
+use quad_dynamics::vehicle::derive::{SteadyRotor, rad_per_s};
 use sysid::Estimate;
 use sysid::rotor_static::{Quantity, advance_slope};
 
@@ -123,7 +123,15 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         following.push(at_hover.value / published[1] - 1.0);
         worst_file = worst_file.max((whole.value / one.in_file - 1.0).abs());
     }
-    let slope = slope(context, &rows, &mut shown)?;
+    let slope = advance_slope(&small_advance(&propeller::read_advance(context)?, &rows))?.parameters[1];
+    shown.push([
+        "d*C*_{T}/d*J*, *J* ≤ 0.3, 4014 rpm",
+        &words(&slope),
+        "",
+        "",
+        "",
+        "",
+    ]);
     let damping = damping_error(&vehicle, &steady, slope.value, hover)?;
     Ok(Drawing::table(shown)
         .data(data)
@@ -157,28 +165,6 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
                 words(&slope)
             ),
         ))
-}
-
-/// The slope over the advance ratio, as a row of the table.
-fn slope(context: &Context, rows: &[Row], shown: &mut DisplayTable) -> Result<Estimate, ItemError> {
-    let stream = propeller::read_advance(context)?;
-    let slope = advance_slope(&propeller::small_advance(&stream, rows))?.parameters[1];
-    let runs = "d*C*_{T}/d*J*, *J* ≤ 0.3, 4014 rpm";
-    shown.push([runs, &words(&slope), "", "", "", ""]);
-    Ok(slope)
-}
-
-/// Relative difference of the file's damping in roll from what the slope gives.
-fn damping_error(vehicle: &Vehicle, steady: &SteadyRotor, slope: f64, hover: f64) -> Result<f64, ItemError> {
-    let axial = axial_damping(
-        slope,
-        vehicle.environment.air_density,
-        propeller::SCALE.diameter_m,
-        hover,
-    );
-    let derived = steady.rate_damping(vehicle, axial, hover).x;
-    let in_file = vehicle.require_drag("table 4.3")?.rate_damping.x;
-    Ok((derived / in_file - 1.0).abs())
 }
 
 fn words(estimate: &Estimate) -> String {

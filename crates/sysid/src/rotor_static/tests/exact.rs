@@ -239,3 +239,22 @@ fn exact_refusals_and_warnings() {
     assert!(coefficient(&stopped, &scale(), Quantity::Torque).is_err());
     assert!(speed_dependence(&stopped, &scale(), Quantity::Torque, SpeedLaw::Linear, 400.0).is_err());
 }
+
+#[test]
+fn exact_samples_are_rows_of_a_csv() {
+    let text = "duty,battery_voltage_v,thrust_n,torque_n_m,speed_rad_s\n0.07,11.1,2.5,0.04,390\n";
+    let rows: Vec<StaticSample> = csv::Reader::from_reader(text.as_bytes())
+        .deserialize()
+        .map(Result::unwrap)
+        .collect();
+    assert_eq!(
+        rows,
+        [StaticSample {
+            duty: 0.07,
+            battery_voltage_v: 11.1,
+            thrust_n: 2.5,
+            torque_n_m: 0.04,
+            speed_rad_s: 390.0
+        }]
+    );
+}
