@@ -118,8 +118,15 @@ fn picture(subject: &Subject, samples: &[Sample], found: &Calibration) -> crate:
     let span = found.largest_load - found.smallest_load;
     let loads = (0..=60).map(|k| found.smallest_load + span * f64::from(k) / 60.0);
     let line = |load: f64| found.reading(load);
+    // Room for the markers at both ends.
+    let room = 0.04 * span;
+    let (left, right) = (
+        subject.scale * (found.smallest_load - room),
+        subject.scale * (found.largest_load + room),
+    );
     let measured = samples.iter().zip(&found.line.residuals);
     let calibration = Panel::new(&label, "Reading *y*, V")
+        .x_range(left, right)
         .line(
             "calibration line",
             Look::solid(VERMILION, 1.6),
@@ -136,6 +143,7 @@ fn picture(subject: &Subject, samples: &[Sample], found: &Calibration) -> crate:
         upper: 1e3 * line(x).half_width(),
     });
     let residuals = Panel::new(&label, "Residual, mV")
+        .x_range(left, right)
         .band("95 % band of the line", Look::solid(VERMILION, 1.0), band)
         .markers(
             "",
@@ -162,8 +170,11 @@ pub(super) fn samples(subject: &Subject) -> Result<Drawing, ItemError> {
         // The way down begins with the last load.
         let back = (2 * STEPS as usize + 1 - k) * each;
         let down = &samples[back..back + each];
-        let load = format!("{:.2}", subject.scale * up[0].load + 0.0);
-        let readings = up.iter().chain(down).map(|s| format!("{:.4}", s.reading_v));
+        let load = format!("{:.2}", subject.scale * up[0].load + 0.0).replace('-', "−");
+        let readings = up
+            .iter()
+            .chain(down)
+            .map(|s| format!("{:.4}", s.reading_v).replace('-', "−"));
         shown.push(std::iter::once(load).chain(readings));
     }
     Ok(Drawing::table(shown)

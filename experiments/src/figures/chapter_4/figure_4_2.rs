@@ -48,7 +48,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let (points, forces) = (placing.points(), placing.forces());
     let truth = test.vehicle.airframe.centre_of_mass;
     let weight = test.vehicle.weight();
-    let mut diagram = Diagram::new(600.0, 485.0);
+    let mut diagram = Diagram::new(530.0, 485.0);
     for face in icosahedral_cage(supports::CAGE_RADIUS_M) {
         let [a, b, c] = face.map(|p| page(&p));
         diagram.line(&[a, b, c, a], Look::solid(FAINT, 1.1));
@@ -68,7 +68,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     diagram.circle(g, 4.5, BLUE);
     diagram.text(g.offset(-14.0, -6.0), "G");
     diagram.circle(c, 3.5, "#ffffff");
-    diagram.text(c.offset(-13.0, 4.0), "C");
+    diagram.text(c.offset(14.0, 12.0), "C");
     for (i, (point, force)) in points.iter().zip(forces).enumerate() {
         let foot = page(point);
         let tail = foot.offset(0.0, NEWTON * force);

@@ -1,10 +1,11 @@
 //! Figure 4.4: support data, planes, lines and the centre of mass from them.
 
-use super::supports::{self, SupportTest, pictured};
+use super::supports::{self, SupportTest, box_edges, pictured};
 use crate::claim::Claim;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
+use crate::plot::space::View;
 use crate::plot::style::{INK, Look, Marker};
 use crate::plot::{Figure, Space, series_style};
 use nalgebra::Vector3;
@@ -121,7 +122,10 @@ fn whole(test: &SupportTest) -> Space {
 
 fn close(found: &CentreOfMass, truth: &Vector3<f64>) -> Space {
     let centre = found.point();
-    let mut space = space().caption("where the lines meet");
+    let mut space = space().caption("where the lines meet").view(View {
+        azimuth_deg: -38.0,
+        ..View::default()
+    });
     let half = found.lines.len() / 2;
     for (i, line) in found.lines.iter().enumerate() {
         let nearest = centre + line.offset_from(&centre);
@@ -156,17 +160,4 @@ fn close(found: &CentreOfMass, truth: &Vector3<f64>) -> Space {
         space = space.range(axis, middle - 1e3 * NEAR_M, middle + 1e3 * NEAR_M);
     }
     space
-}
-
-/// The twelve edges of the box of half sides `reach` about a point.
-fn box_edges(centre: &Vector3<f64>, reach: &Vector3<f64>) -> Vec<[Vector3<f64>; 2]> {
-    let corner = |k: usize| {
-        let side = |axis: usize| if k >> axis & 1 == 1 { 1.0 } else { -1.0 };
-        centre + reach.component_mul(&Vector3::from_fn(|axis, _| side(axis)))
-    };
-    let edges = (0..8).flat_map(|k| (0..3).map(move |axis| (k, k | 1 << axis)));
-    edges
-        .filter(|(from, to)| from != to)
-        .map(|(from, to)| [corner(from), corner(to)])
-        .collect()
 }

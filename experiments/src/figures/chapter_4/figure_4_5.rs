@@ -90,7 +90,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             INSIDE,
             fit.inertia.interval().contains(truth),
             format!(
-                "({:.3} ± {:.3})·10⁻² kg m², true {:.3}·10⁻²; the small-angle law would be {:+.1} % off at this amplitude",
+                "({:.4} ± {:.4})·10⁻² kg m², true {:.4}·10⁻²; the small-angle law would be {:+.1} % off at this amplitude",
                 1e2 * fit.inertia.value,
                 1e2 * fit.inertia.half_width(),
                 1e2 * truth,

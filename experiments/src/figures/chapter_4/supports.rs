@@ -96,3 +96,16 @@ pub(super) fn table(placings: &[Placing]) -> DataTable {
 pub(super) fn pictured(p: &Vector3<f64>) -> Point3 {
     [1e3 * p.x, 1e3 * p.y, -1e3 * p.z]
 }
+
+/// The twelve edges of the box of half sides `reach` about a point.
+pub(super) fn box_edges(centre: &Vector3<f64>, reach: &Vector3<f64>) -> Vec<[Vector3<f64>; 2]> {
+    let corner = |k: usize| {
+        let side = |axis: usize| if k >> axis & 1 == 1 { 1.0 } else { -1.0 };
+        centre + reach.component_mul(&Vector3::from_fn(|axis, _| side(axis)))
+    };
+    let edges = (0..8).flat_map(|k| (0..3).map(move |axis| (k, k | 1 << axis)));
+    edges
+        .filter(|(from, to)| from != to)
+        .map(|(from, to)| [corner(from), corner(to)])
+        .collect()
+}

@@ -73,6 +73,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         let truth = line
             .half_width
             .map_or_else(String::new, |_| format!("{:.3}", line.truth));
+        let [value, truth] = [value, truth].map(|words| words.replace('-', "−"));
         shown.push([
             line.name.to_owned(),
             value,

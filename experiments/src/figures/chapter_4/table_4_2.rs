@@ -15,7 +15,8 @@ pub(super) const ITEM: Item = Item {
     title: "Measured moments of inertia against the vendor's",
     description: "Moments of inertia by the bifilar pendulum in the virtual laboratory, with 95 % intervals: the non-linear equation \
                   fitted to a swing from 40°, and the small-angle law with four timings of 20 periods from 3°. The virtual vehicle has \
-                  the vendor's values, so that agreement tests the method, not the vendor. The last two rows are real timings of **another** \
+                  the vendor's values, so that agreement tests the method, not the vendor. The intervals hold the scatter alone: strings that are a millimetre farther \
+                  apart on either side than the 0.2 m believed make 1 % more. The last two rows are real timings of **another** \
                   quadcopter (0.958 kg; marcv81, 'Moment of inertia', 2014), its published values in the vendor's column.",
     kind: Kind::Table,
     origin: Origin::VirtualLaboratory,
@@ -38,7 +39,7 @@ const VENDOR_VEHICLE: &str = "vehicles/qball-x4-vendor.toml";
 const REPETITIONS: u64 = 40;
 
 fn printed(estimate: &Estimate) -> String {
-    format!("{:.3} ± {:.3}", 1e2 * estimate.value, 1e2 * estimate.half_width())
+    format!("{:.4} ± {:.4}", 1e2 * estimate.value, 1e2 * estimate.half_width())
 }
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
@@ -68,7 +69,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             printed(&fitted),
             printed(&timed),
             format!("{:.3}", 1e2 * stated),
-            format!("{:+.2} %", 100.0 * (fitted.value / stated - 1.0)),
+            format!("{:+.3} %", 100.0 * (fitted.value / stated - 1.0)).replace('-', "−"),
         ]);
         data.push([
             name.replace('*', "").into(),
