@@ -164,3 +164,19 @@ fn picture(m: &Measurements, vehicle: &Vehicle) -> Result<Figure, ItemError> {
     .line("identified cubic", series_style(1), curve);
     Ok(Figure::columns(1).panel(panel))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::item::repository_root;
+
+    #[test]
+    fn thesis_the_identified_vehicle_flies_figure_6_14() {
+        let out = std::env::temp_dir().join(format!("identify-{}", std::process::id()));
+        let outcome = run(&Context::new(repository_root(), false), 2, &out).unwrap();
+        assert!(outcome.claims_hold, "{}", outcome.report);
+        let text = fs::read_to_string(out.join("vehicle.toml")).unwrap();
+        assert!(Vehicle::from_toml_str(&text, "vehicle.toml").is_ok());
+        fs::remove_dir_all(out).unwrap();
+    }
+}

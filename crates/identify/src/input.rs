@@ -5,6 +5,7 @@ use std::error::Error;
 use std::fs::{self, File};
 use std::path::Path;
 use sysid::centre_of_mass::Placing;
+use sysid::load_cell::Sample;
 use sysid::measurement::{Column, Layout, Table, read};
 use sysid::pendulum::AngleSample;
 use sysid::rotor_dynamics::DynamicSample;
@@ -19,6 +20,10 @@ const STAND: [Column; 5] = [
     Column::new("speed_rad_s", "rad/s", 0.0, 1e4),
 ];
 const SWING: [Column; 2] = [TIME, Column::new("angle_rad", "rad", -3.2, 3.2)];
+const LOADS: [Column; 2] = [
+    Column::new("load_n", "N", -1e4, 1e4),
+    Column::new("reading_v", "V", -100.0, 100.0),
+];
 const PLACINGS: [Column; 13] = [
     Column::new("orientation", "1", 0.0, 1000.0),
     Column::new("x_1_m", "m", -20.0, 20.0),
@@ -103,5 +108,12 @@ pub(crate) fn response(path: &Path) -> Read<DynamicSample> {
             torque_n_m: at(4),
             speed_rad_s: at(5),
         }
+    })
+}
+
+pub(crate) fn loads(path: &Path) -> Read<Sample> {
+    rows(path, &Layout::table(&LOADS), |at| Sample {
+        load: at(0),
+        reading_v: at(1),
     })
 }

@@ -11,6 +11,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use sysid::centre_of_mass::locate;
+use sysid::load_cell::calibrate;
 use sysid::pendulum::{Damping, Suspension, fit_history};
 use sysid::rotor_dynamics::{Coefficients, Record, Start, Structure, identify as respond};
 use sysid::rotor_static::{PropellerSample, PropellerScale, Quantity, coefficient, polynomial};
@@ -74,6 +75,14 @@ enum What {
         #[arg(long, default_value_t = 9.81)]
         gravity_m_s2: f64,
     },
+    /// Zero and sensitivity of a thrust cell from loads and readings.
+    LoadCell {
+        #[command(flatten)]
+        common: Common,
+        /// Rated load of the cell, N.
+        #[arg(long)]
+        capacity_n: f64,
+    },
     /// Propeller coefficients and cubics from a static sweep; needs --vehicle for diameter, density and PWM range.
     ThrustStand(Common),
     /// Transfer functions of thrust and torque from a step or pseudo-random sequence.
@@ -109,6 +118,7 @@ fn run(what: &What) -> Result<(), Box<dyn Error>> {
             };
             (common, pendulum(common, *axis, &suspension)?)
         }
+        What::LoadCell { common, capacity_n } => (common, load_cell(common, *capacity_n)?),
         What::ThrustStand(common) => (common, thrust_stand(common)?),
         What::RotorResponse(common) => (common, rotor_response(common)?),
     };
@@ -155,6 +165,17 @@ fn pendulum(common: &Common, axis: Axis, suspension: &Suspension) -> Result<Answ
         Axis::Yaw => "airframe.inertia_zz_kg_m2",
     };
     answer.found.push(Found::new(key, "kg m²", fit.inertia));
+    Ok(answer)
+}
+
+fn load_cell(common: &Common, capacity_n: f64) -> Result<Answer, Box<dyn Error>> {
+    let (samples, mut answer) = input::loads(&common.data)?;
+    let calibration = calibrate(&samples, capacity_n)?;
+    answer.warn(&calibration.line.warnings);
+    answer.found.push(Found::new("zero", "V", calibration.zero()));
+    answer
+        .found
+        .push(Found::new("sensitivity", "V/N", calibration.sensitivity()));
     Ok(answer)
 }
 

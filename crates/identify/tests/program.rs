@@ -142,3 +142,22 @@ fn exact_exit_codes_of_usage_and_missing_files() {
             .contains("no-such-file.csv")
     );
 }
+
+#[test]
+fn exact_a_load_cell_line_by_hand() {
+    // Readings 1 V + 0.5 V/N times the load, one millivolt to either side by turns, which leaves the slope.
+    let text = "load_n,reading_v\n0,1.001\n0,0.999\n2,2.001\n2,1.999\n4,3.001\n4,2.999\n";
+    let output = Command::new(env!("CARGO_BIN_EXE_identify"))
+        .arg("load-cell")
+        .arg(file("loads.csv", text.as_bytes()))
+        .args(["--capacity-n", "20", "--json"])
+        .output()
+        .unwrap();
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let number = |i: usize| answer["numbers"][i]["value"].as_f64().unwrap();
+    // Rounding.
+    assert!(
+        (number(0) - 1.0).abs() < 1e-12 && (number(1) - 0.5).abs() < 1e-12,
+        "{answer}"
+    );
+}
