@@ -179,4 +179,20 @@ impl<R: Real> AnyQuadrotor<R> {
     pub fn write_state(&self, out: &mut [R]) {
         each_level!(self, q => q.state.write(out));
     }
+
+    /// Takes the state from numbers in the order of its [`Flat`] implementation: the reverse of
+    /// [`Self::write_state`].
+    ///
+    /// # Panics
+    /// If there are fewer than [`Self::state_len`] numbers: a programming error, not an input error.
+    pub fn read_state(&mut self, values: &[R]) {
+        each_level!(self, q => q.state = Flat::read(values));
+    }
+
+    /// Takes over a flight that another model flew until now, driven by this input.
+    ///
+    /// As [`Self::from_snapshot`] with the model that is here already: nothing is built, so nothing can fail.
+    pub fn adopt(&mut self, snapshot: &Snapshot<R>, input: &Input<R>) {
+        each_level!(self, q => q.state = q.model.adopt(snapshot, input));
+    }
 }

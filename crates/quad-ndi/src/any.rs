@@ -4,7 +4,7 @@ use crate::controller::{Controller, ControllerError};
 use crate::pid::Pid;
 use crate::{C1, C2, C3, Reference};
 use quad_dynamics::{CommandLimits, Flight, Level};
-use quad_math::Real;
+use quad_math::{Flat, Real};
 
 /// A controller together with what it remembers.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +71,30 @@ impl<R: Real> AnyController<R> {
             C::LEVEL
         }
         each_controller!(self, c => level(c))
+    }
+
+    /// How many numbers its memory has.
+    pub fn memory_len(&self) -> usize {
+        fn len<R: Real, C: Controller<R>>(_: &InCharge<R, C>) -> usize {
+            <C::Memory as Flat<R>>::LEN
+        }
+        each_controller!(self, c => len(c))
+    }
+
+    /// The memory as numbers, in the order of its [`Flat`] implementation.
+    ///
+    /// # Panics
+    /// If `out` is shorter than [`Self::memory_len`]: a programming error, not an input error.
+    pub fn write_memory(&self, out: &mut [R]) {
+        each_controller!(self, c => Flat::<R>::write(&c.memory, out));
+    }
+
+    /// Takes the memory from numbers: the reverse of [`Self::write_memory`].
+    ///
+    /// # Panics
+    /// If there are fewer than [`Self::memory_len`] numbers: a programming error, not an input error.
+    pub fn read_memory(&mut self, values: &[R]) {
+        each_controller!(self, c => c.memory = Flat::<R>::read(values));
     }
 
     /// Checks that the controller may fly a model of the level.
