@@ -152,6 +152,14 @@ impl<R: Real> AnyQuadrotor<R> {
         each_level!(self, q => q.model.flight(&q.state))
     }
 
+    /// Shows what can be seen of the flight to `look`: as [`Self::flight`], but only what is looked at is computed.
+    ///
+    /// The look is compiled into each level, so that Euler angles that nobody asks for cost nothing.
+    #[inline(always)]
+    pub fn see<T>(&self, look: impl FnOnce(&Flight<R>) -> T) -> T {
+        each_level!(self, q => look(&q.model.flight(&q.state)))
+    }
+
     /// The flight in terms that every level understands.
     pub fn snapshot(&self, input: &Input<R>) -> Snapshot<R> {
         each_level!(self, q => q.model.snapshot(&q.state, input))

@@ -48,11 +48,10 @@ impl Published {
 
     /// Whether all its numbers are finite.
     pub fn is_finite(&self) -> bool {
-        // Zero times a number is zero, but for NaN and infinity: one sum instead of eighteen questions.
-        let sum =
-            self.position.sum() + self.velocity.sum() + self.body_rates.sum() + self.rotation.matrix.sum();
-        // A sum of finite numbers overflows near 1e308 only, where nothing is well either.
-        sum.is_finite()
+        // A sum is finite if all its terms are: one question instead of eighteen. (Sums of finite numbers overflow
+        // near 1e308 only, where nothing is well either.)
+        let vectors = self.position.sum() + self.velocity.sum() + self.body_rates.sum();
+        (vectors + self.rotation.matrix.sum()).is_finite()
     }
 
     /// Its numbers: position, velocity, matrix column by column, rates.
@@ -141,6 +140,11 @@ impl Moment<'_> {
     }
 }
 
+/// An agent whose numbers are none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a number of the agent's state is NaN or infinite")]
+pub struct NotFinite;
+
 /// Why an agent can't take up what was saved of it.
 #[derive(Debug, thiserror::Error)]
 pub enum MemoryError {
@@ -190,11 +194,34 @@ pub trait Agent: Any + Debug + Send {
     /// Where it is, at its latest instant.
     fn published(&self) -> Published;
 
+    /// Publishes where it is, unless a number isn't finite: what was published before then remains.
+    ///
+    /// Not to be overridden. It stands here so that it is compiled together with [`Agent::published`]: numbers are
+    /// checked and stored while they are at hand.
+    ///
+    /// # Errors
+    /// [`NotFinite`].
+    fn publish(&self, to: &mut Published) -> Result<(), NotFinite> {
+        let published = self.published();
+        if !published.is_finite() {
+            return Err(NotFinite);
+        }
+        *to = published;
+        Ok(())
+    }
+
     /// Decides on its inputs from this instant to its next; tells if something worth noting happened.
     fn decide(&mut self, now: &Moment<'_>) -> Option<AgentEvent>;
 
     /// Moves from this instant to its next with the inputs decided on.
     fn advance(&mut self, now: &Moment<'_>);
+
+    /// Decides and moves in one go, where nobody looks in between: bit for bit the two one after the other.
+    fn decide_and_advance(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        let event = self.decide(now);
+        self.advance(now);
+        event
+    }
 
     /// What it records: states, inputs, outputs, references. The same for its whole life.
     fn channels(&self) -> Vec<Channel>;

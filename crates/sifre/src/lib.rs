@@ -13,7 +13,7 @@ mod schedule;
 mod simulation;
 mod target;
 
-pub use agent::{Agent, AgentId, Directory, Member, MemoryError, Moment, Published};
+pub use agent::{Agent, AgentId, Directory, Member, MemoryError, Moment, NotFinite, Published};
 pub use black_box::{BlackBox, BlackBoxError, Channel, Recording};
 pub use clock::StepSize;
 pub use error::{SimulationError, SnapshotError, UnknownAgent};

@@ -25,6 +25,7 @@ use crate::exact::{Exact, exact, plain};
 use nalgebra::Vector3;
 use pilot::check_length;
 use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, PhenomenonSet, Vehicle};
+use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
 use serde::{Deserialize, Serialize};
 
@@ -33,8 +34,6 @@ use serde::{Deserialize, Serialize};
 pub struct Quadrotor {
     setup: Setup,
     quadrotor: AnyQuadrotor<f64>,
-    /// What can be seen of the model's state: computed once per step.
-    flight: Flight<f64>,
     reference: Reference<f64>,
     /// Commands at the rotors, disturbance included, and wind.
     input: Input<f64>,
@@ -42,6 +41,8 @@ pub struct Quadrotor {
     scripted: Vec<AnyQuadrotor<f64>>,
     /// The entry of the script's levels in force.
     entry: Option<usize>,
+    /// One RK4 step per step and no disturbance of the commands: model and controller may fly as one.
+    is_plain: bool,
 }
 
 /// All that a quadrotor needs to go on.
@@ -85,12 +86,14 @@ impl Quadrotor {
         let quadrotor = build(&setup.level)?;
         let scripted = setup.script.level.values().map(build).collect::<Result<_, _>>()?;
         Ok(Self {
-            flight: quadrotor.flight(),
             reference: Reference::hold(setup.position(), setup.start.yaw_rad),
             input: quadrotor.hover_input(),
             quadrotor,
             scripted,
             entry: None,
+            is_plain: setup.method == FixedStep::Rk4
+                && setup.substeps.get() == 1
+                && setup.script.command_offset.values().next().is_none(),
             setup,
         })
     }
@@ -101,8 +104,8 @@ impl Quadrotor {
     }
 
     /// The flight at its latest instant.
-    pub fn flight(&self) -> &Flight<f64> {
-        &self.flight
+    pub fn flight(&self) -> Flight<f64> {
+        self.quadrotor.flight()
     }
 
     /// The model and its state at its latest instant.
@@ -132,14 +135,28 @@ impl Quadrotor {
     fn go_on_as(&mut self, mut next: AnyQuadrotor<f64>) -> AgentEvent {
         next.adopt(&self.quadrotor.snapshot(&self.input), &self.input);
         let (from, to) = (self.quadrotor.level(), next.level());
-        self.setup.pilot.level_changed(&self.flight);
+        self.setup.pilot.level_changed(&self.quadrotor.flight());
         self.quadrotor = next;
-        self.flight = self.quadrotor.flight();
         AgentEvent::LevelChanged { from, to }
     }
 
+    /// Velocity of the air in W, m/s.
+    #[inline]
+    fn wind(&self, now: &Moment<'_>) -> Vector3<f64> {
+        let wind = self.setup.script.wind_m_s.at(now.time_ns);
+        wind.copied().map_or_else(Vector3::zeros, Vector3::from)
+    }
+
     /// Changes the level if the script says so at this instant.
+    #[inline]
     fn follow_script(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        if self.scripted.is_empty() {
+            return None;
+        }
+        self.change_if_due(now)
+    }
+
+    fn change_if_due(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
         let entry = self.setup.script.level.place_at(now.time_ns)?;
         if self.entry == Some(entry) {
             return None;
@@ -177,27 +194,25 @@ impl Agent for Quadrotor {
         self.setup.guidance.bind(directory)
     }
 
-    #[inline]
+    #[inline(always)]
     fn published(&self) -> Published {
-        Published {
-            position: self.flight.position,
-            velocity: self.flight.velocity,
-            rotation: self.flight.rotation,
-            body_rates: self.flight.body_rates,
-        }
+        self.quadrotor.see(
+            #[inline(always)]
+            |flight| Published {
+                position: flight.position,
+                velocity: flight.velocity,
+                rotation: flight.rotation,
+                body_rates: flight.body_rates,
+            },
+        )
     }
 
     fn decide(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
         let event = self.follow_script(now);
-        let script = &self.setup.script;
         self.reference = self.setup.guidance.reference(now);
-        self.input.wind = script
-            .wind_m_s
-            .at(now.time_ns)
-            .copied()
-            .map_or_else(Vector3::zeros, Vector3::from);
-        self.input.commands = self.setup.pilot.commands(&self.flight, &self.reference, now);
-        if let Some(offset) = script.command_offset.at(now.time_ns) {
+        self.input.wind = self.wind(now);
+        self.input.commands = self.setup.pilot.commands(&self.quadrotor, &self.reference, now);
+        if let Some(offset) = self.setup.script.command_offset.at(now.time_ns) {
             self.input.commands = std::array::from_fn(|i| self.input.commands[i] + offset[i]);
         }
         event
@@ -209,7 +224,22 @@ impl Agent for Quadrotor {
         for _ in 0..substeps {
             self.quadrotor.step(self.setup.method, &self.input, h);
         }
-        self.flight = self.quadrotor.flight();
+    }
+
+    fn decide_and_advance(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        if !self.is_plain {
+            let event = self.decide(now);
+            self.advance(now);
+            return event;
+        }
+        let event = self.follow_script(now);
+        let reference = self.setup.guidance.reference(now);
+        self.input.wind = self.wind(now);
+        self.input.commands = self
+            .setup
+            .pilot
+            .fly(&mut self.quadrotor, &reference, &self.input.wind, now);
+        event
     }
 
     fn channels(&self) -> Vec<Channel> {
@@ -238,7 +268,6 @@ impl Agent for Quadrotor {
         let (memory, quadrotor) = self.read(memory)?;
         self.setup.pilot.restore(&plain(&memory.pilot))?;
         self.quadrotor = quadrotor;
-        self.flight = self.quadrotor.flight();
         self.entry = memory.entry;
         self.input.commands = memory.commands.map(|u| u.0);
         self.input.wind = Vector3::from(memory.wind.map(|w| w.0));

@@ -2,7 +2,9 @@
 
 use crate::agent::{MemoryError, Moment};
 use crate::schedule::Schedule;
-use quad_dynamics::{Flight, Level};
+use nalgebra::Vector3;
+use quad_dynamics::{AnyQuadrotor, Flight, Input, Level};
+use quad_math::FixedStep;
 use quad_ndi::{AnyController, Reference};
 use std::fmt::Debug;
 
@@ -11,8 +13,29 @@ pub trait Pilot: Debug + Send {
     /// The lowest level of model that it makes sense on.
     fn level(&self) -> Level;
 
-    /// Zeroed rotor commands from this instant to the next.
-    fn commands(&mut self, flight: &Flight<f64>, reference: &Reference<f64>, now: &Moment<'_>) -> [f64; 4];
+    /// Zeroed rotor commands from this instant to the next. Of the quadrotor it is to look at its flight only.
+    fn commands(
+        &mut self,
+        quadrotor: &AnyQuadrotor<f64>,
+        reference: &Reference<f64>,
+        now: &Moment<'_>,
+    ) -> [f64; 4];
+
+    /// Commands the rotors and flies the quadrotor one RK4 step in this wind, m/s in W, in one go; gives the commands.
+    ///
+    /// The same bit for bit as the two one after the other, which it is unless a pilot has a faster way.
+    fn fly(
+        &mut self,
+        quadrotor: &mut AnyQuadrotor<f64>,
+        reference: &Reference<f64>,
+        wind: &Vector3<f64>,
+        now: &Moment<'_>,
+    ) -> [f64; 4] {
+        let commands = self.commands(quadrotor, reference, now);
+        let wind = *wind;
+        quadrotor.step(FixedStep::Rk4, &Input { commands, wind }, now.step_s);
+        commands
+    }
 
     /// Told when the model changes its level: the last that was seen of the flight before.
     fn level_changed(&mut self, _before: &Flight<f64>) {}
@@ -32,9 +55,23 @@ impl Pilot for AnyController<f64> {
         AnyController::level(self)
     }
 
-    #[inline]
-    fn commands(&mut self, flight: &Flight<f64>, reference: &Reference<f64>, now: &Moment<'_>) -> [f64; 4] {
-        self.update(flight, reference, now.step_s)
+    fn commands(
+        &mut self,
+        quadrotor: &AnyQuadrotor<f64>,
+        reference: &Reference<f64>,
+        now: &Moment<'_>,
+    ) -> [f64; 4] {
+        self.update(&quadrotor.flight(), reference, now.step_s)
+    }
+
+    fn fly(
+        &mut self,
+        quadrotor: &mut AnyQuadrotor<f64>,
+        reference: &Reference<f64>,
+        wind: &Vector3<f64>,
+        now: &Moment<'_>,
+    ) -> [f64; 4] {
+        AnyController::fly(self, quadrotor, reference, wind, now.step_s)
     }
 
     /// c3 goes on with the thrusts that the flight really had, not with those of its last call.
@@ -68,7 +105,12 @@ impl Pilot for OpenLoop {
         Level::One
     }
 
-    fn commands(&mut self, _flight: &Flight<f64>, _reference: &Reference<f64>, now: &Moment<'_>) -> [f64; 4] {
+    fn commands(
+        &mut self,
+        _quadrotor: &AnyQuadrotor<f64>,
+        _reference: &Reference<f64>,
+        now: &Moment<'_>,
+    ) -> [f64; 4] {
         self.0.at(now.time_ns).copied().unwrap_or_default()
     }
 

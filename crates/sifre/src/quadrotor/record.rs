@@ -55,7 +55,7 @@ pub(super) fn channels() -> Vec<Channel> {
 
 /// One number per channel.
 pub(super) fn write(of: &Quadrotor, row: &mut [f64]) {
-    let (flight, flat) = (&of.flight, &of.reference.flat);
+    let (flight, flat) = (of.quadrotor.flight(), &of.reference.flat);
     let snapshot = of.quadrotor.snapshot(&of.input);
     let mut rest = row;
     let mut put = |values: &[f64]| {

@@ -51,14 +51,19 @@ impl Slot {
     /// Decides, keeps the row, moves; tells whether something happened.
     #[inline]
     fn live(&mut self, now: &Moment<'_>, work: Work) -> bool {
-        let event = self.agent.decide(now);
-        if work.capture {
-            self.agent.record(&mut self.row);
-        }
         self.row_is_current = work.capture;
-        if work.advance {
-            self.agent.advance(now);
-        }
+        let event = if work.advance && !work.capture {
+            self.agent.decide_and_advance(now)
+        } else {
+            let event = self.agent.decide(now);
+            if work.capture {
+                self.agent.record(&mut self.row);
+            }
+            if work.advance {
+                self.agent.advance(now);
+            }
+            event
+        };
         let happened = event.is_some();
         if happened {
             self.event = event;

@@ -84,11 +84,9 @@ impl Simulation {
         let mut diverged: Option<(usize, u64)> = None;
         for group in self.groups.iter().filter(|group| group.next_ns == self.now_ns) {
             for slot in &group.slots {
-                let published = slot.agent.published();
                 let id = slot.id.0;
-                if published.is_finite() {
-                    self.scene[id] = published;
-                } else if diverged.is_none_or(|(other, _)| self.names[id] < self.names[other]) {
+                let first = |(other, _): (usize, u64)| self.names[id] < self.names[other];
+                if slot.agent.publish(&mut self.scene[id]).is_err() && diverged.is_none_or(first) {
                     diverged = Some((id, group.step.ns()));
                 }
             }

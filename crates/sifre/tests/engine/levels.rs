@@ -43,11 +43,11 @@ proptest! {
         let mut simulation = flying(from, Script::default());
         simulation.run(f64::from(time_ms) / 1000.0, &mut ()).unwrap();
         let alpha: &mut Quadrotor = simulation.agent_mut("alpha").unwrap();
-        let before = *alpha.flight();
+        let before = alpha.flight();
         let event = alpha.change_level(&to.into()).unwrap();
         prop_assert_eq!(event, AgentEvent::LevelChanged { from, to });
         // Roundings of conversions between quaternion and Euler angles, on numbers up to ten.
-        let jump = close(&before, alpha.flight());
+        let jump = close(&before, &alpha.flight());
         prop_assert!(jump < 1e-13, "{from} to {to}: {jump}");
         prop_assert!(simulation.run(1.0, &mut ()).unwrap().status.is_completed());
         prop_assert_eq!(simulation.agent::<Quadrotor>("alpha").unwrap().level(), to);
