@@ -23,4 +23,5 @@ pub mod output;
 pub mod plot;
 pub mod reference;
 pub mod run;
+pub mod station;
 pub mod summary;

@@ -6,21 +6,35 @@ use crate::item::Item;
 
 mod appendix_f;
 mod appendix_g;
+mod chapter_1;
+mod chapter_2;
 mod chapter_3;
 mod chapter_4;
 mod chapter_5;
 mod chapter_6;
+mod chapter_7;
+mod glyphs;
 mod photographs;
 
 const CHAPTERS: &[&[Item]] = &[
     photographs::ITEMS,
+    chapter_1::ITEMS,
+    chapter_2::ITEMS,
     chapter_3::ITEMS,
     chapter_4::ITEMS,
     chapter_5::ITEMS,
     chapter_6::ITEMS,
+    chapter_7::ITEMS,
     appendix_f::ITEMS,
     appendix_g::ITEMS,
 ];
+
+/// `steps + 1` numbers from `from` to `to`, evenly apart.
+fn sweep(from: f64, to: f64, steps: u32) -> Vec<f64> {
+    (0..=steps)
+        .map(|k| from + (to - from) * f64::from(k) / f64::from(steps))
+        .collect()
+}
 
 /// All items in reading order.
 pub fn all() -> Vec<Item> {

@@ -99,6 +99,22 @@ impl Svg {
         )
     }
 
+    /// The picture with another one below it, both centred.
+    #[must_use]
+    pub fn above(&self, below: &Self) -> Self {
+        let width = self.width.max(below.width);
+        let mut both = Self::new(width, self.height + below.height);
+        for (picture, top) in [(self, 0.0), (below, self.height)] {
+            let left = (width - picture.width) / 2.0;
+            let (left, top) = (number(left), number(top));
+            both.raw(&format!(
+                "<g transform=\"translate({left} {top})\">\n{}</g>",
+                picture.body
+            ));
+        }
+        both
+    }
+
     /// Adds an element as it is.
     pub fn raw(&mut self, element: &str) {
         self.body += element;
@@ -202,6 +218,15 @@ mod tests {
         assert_eq!(number(1.0), "1");
         assert_eq!(number(-0.001), "0");
         assert_eq!(number(2.345_6), "2.35");
+    }
+
+    #[test]
+    fn exact_one_picture_above_another() {
+        let mut dot = Svg::new(10.0, 5.0);
+        dot.circle(at(1.0, 1.0), 1.0, "#000000", None);
+        let both = Svg::new(20.0, 7.0).above(&dot);
+        assert_eq!((both.width, both.height), (20.0, 12.0));
+        assert!(both.body.contains("translate(5 7)") && both.body.contains("circle"));
     }
 
     #[test]

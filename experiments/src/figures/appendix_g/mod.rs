@@ -3,6 +3,7 @@
 use crate::item::Item;
 
 mod table_g_1;
+mod table_g_2;
 
 /// The items of this appendix.
-pub(super) const ITEMS: &[Item] = &[table_g_1::ITEM];
+pub(super) const ITEMS: &[Item] = &[table_g_1::ITEM, table_g_2::ITEM];

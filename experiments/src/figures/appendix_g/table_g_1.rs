@@ -31,7 +31,8 @@ fn entries(context: &Context, file: &str) -> Result<Vec<(String, String, String)
     Ok(found)
 }
 
-fn collect(path: &str, value: &toml::Value, found: &mut Vec<(String, String, String)>) {
+/// Path, value and source of each number below a value of a parameter file.
+pub(super) fn collect(path: &str, value: &toml::Value, found: &mut Vec<(String, String, String)>) {
     let below = |key: &str| {
         if path.is_empty() {
             key.to_owned()
@@ -81,6 +82,6 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 }
 
 /// Words that are not rich text: asterisks, carets and underscores stand for themselves.
-fn escaped(words: &str) -> String {
+pub(super) fn escaped(words: &str) -> String {
     words.replace('*', "\\*")
 }

@@ -5,6 +5,7 @@ use crate::drawing::Drawing;
 use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::diagram::{ARROW, CONSTRUCTION, Diagram};
+use crate::plot::sketch::Eye;
 use crate::plot::style::{BLUE, GREY, Look, VERMILION};
 use crate::plot::svg::{Point, at};
 use nalgebra::Vector3;
@@ -35,11 +36,13 @@ const ORIGIN: Point = Point { x: 92.0, y: 330.0 };
 
 /// World components to the page: seen from the south-west and above, orthographic.
 fn page(from: Point, v_w: Vector3<f64>, scale: f64) -> Point {
-    let (azimuth, elevation) = (30.0_f64.to_radians(), 25.0_f64.to_radians());
-    let right = v_w.y * azimuth.cos() - v_w.x * azimuth.sin();
-    let away = v_w.x * azimuth.cos() + v_w.y * azimuth.sin();
-    let up = -v_w.z * elevation.cos() + away * elevation.sin();
-    from.offset(scale * right, -scale * up)
+    let eye = Eye {
+        azimuth_deg: 30.0,
+        elevation_deg: 25.0,
+        scale,
+        origin: from,
+    };
+    eye.page(&v_w)
 }
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
