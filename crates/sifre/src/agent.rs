@@ -13,7 +13,7 @@
 
 use crate::clock::{StepSize, seconds};
 use crate::event::AgentEvent;
-use crate::{Channel, UnknownAgent};
+use crate::{BindError, Channel, UnknownAgent};
 use nalgebra::Vector3;
 use quad_kinematics::{Body, Rotation, World};
 use std::any::Any;
@@ -82,6 +82,8 @@ pub struct AgentId(pub(crate) usize);
 /// All agents of a simulation by name, as one of them looks others up when the simulation is put together.
 #[derive(Clone, Copy, Debug)]
 pub struct Directory<'a> {
+    /// The step of the agent that asks.
+    pub step: StepSize,
     pub(crate) asking: &'a str,
     pub(crate) names: &'a [String],
 }
@@ -171,6 +173,24 @@ pub enum MemoryError {
     Controller(#[from] quad_ndi::ControllerError),
 }
 
+impl MemoryError {
+    /// Checks that there are as many numbers as there should be of what they are.
+    ///
+    /// # Errors
+    /// [`MemoryError::Length`].
+    pub fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found {
+            Ok(())
+        } else {
+            Err(Self::Length {
+                what,
+                expected,
+                found,
+            })
+        }
+    }
+}
+
 /// Something with a pose that is stepped, sees the other agents, and records itself.
 ///
 /// [`Agent::decide`] and [`Agent::advance`] must depend on the agent, its past and the [`Moment`] alone (no clock,
@@ -183,11 +203,11 @@ pub trait Agent: Any + Debug + Send {
     /// The kind of agent, as in `quadrotor`; snapshots carry it.
     fn kind(&self) -> &'static str;
 
-    /// Looks up the agents that it will look at.
+    /// Looks up the agents that it will look at, and gets ready for its step.
     ///
     /// # Errors
-    /// A name that nobody has.
-    fn bind(&mut self, _directory: &Directory<'_>) -> Result<(), UnknownAgent> {
+    /// A name that nobody has; a step that it can't have.
+    fn bind(&mut self, _directory: &Directory<'_>) -> Result<(), BindError> {
         Ok(())
     }
 

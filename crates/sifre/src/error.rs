@@ -28,6 +28,24 @@ fn suggestion(wanted: &str, agent: &str, known: &[String]) -> String {
     }
 }
 
+/// Why an agent can't take its place in a simulation.
+#[derive(Debug, thiserror::Error)]
+pub enum BindError {
+    /// It looks at an agent that isn't there.
+    #[error(transparent)]
+    UnknownAgent(#[from] UnknownAgent),
+    /// It can't have the step that it was given.
+    #[error("agent \"{agent}\" can't have a step of {step_s} s: {source}")]
+    Step {
+        /// The agent.
+        agent: String,
+        /// The step, s.
+        step_s: f64,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+}
+
 /// Why a simulation can't be, or can't run.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulationError {
@@ -40,9 +58,9 @@ pub enum SimulationError {
         /// The name.
         name: String,
     },
-    /// An agent looks at one that isn't there.
+    /// An agent that can't take its place.
     #[error(transparent)]
-    UnknownAgent(#[from] UnknownAgent),
+    Bind(#[from] BindError),
     /// A time that the clock doesn't have.
     #[error("the end of the run: {0}")]
     Time(#[from] GridError),

@@ -19,11 +19,10 @@ pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};
 
 use crate::agent::{Agent, Directory, MemoryError, Moment, Published};
 use crate::black_box::Channel;
-use crate::error::UnknownAgent;
+use crate::error::BindError;
 use crate::event::AgentEvent;
 use crate::exact::{Exact, exact, plain};
 use nalgebra::Vector3;
-use pilot::check_length;
 use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, PhenomenonSet, Vehicle};
 use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
@@ -175,7 +174,7 @@ impl Quadrotor {
             phenomena: Some(memory.phenomena.clone()),
         };
         let mut quadrotor = model(&self.setup.vehicle, &choice, Vector3::zeros(), 0.0)?;
-        check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
+        MemoryError::check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
         quadrotor.read_state(&plain(&memory.state));
         Ok((memory, quadrotor))
     }
@@ -190,8 +189,8 @@ impl Agent for Quadrotor {
         "quadrotor"
     }
 
-    fn bind(&mut self, directory: &Directory<'_>) -> Result<(), UnknownAgent> {
-        self.setup.guidance.bind(directory)
+    fn bind(&mut self, directory: &Directory<'_>) -> Result<(), BindError> {
+        Ok(self.setup.guidance.bind(directory)?)
     }
 
     #[inline(always)]

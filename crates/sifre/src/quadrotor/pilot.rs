@@ -88,7 +88,7 @@ impl Pilot for AnyController<f64> {
     }
 
     fn restore(&mut self, memory: &[f64]) -> Result<(), MemoryError> {
-        check_length("the controller's memory", self.memory_len(), memory.len())?;
+        MemoryError::check_length("the controller's memory", self.memory_len(), memory.len())?;
         self.read_memory(memory);
         Ok(())
     }
@@ -119,18 +119,6 @@ impl Pilot for OpenLoop {
     }
 
     fn restore(&mut self, memory: &[f64]) -> Result<(), MemoryError> {
-        check_length("the memory of an open loop", 0, memory.len())
-    }
-}
-
-pub(super) fn check_length(what: &'static str, expected: usize, found: usize) -> Result<(), MemoryError> {
-    if expected == found {
-        Ok(())
-    } else {
-        Err(MemoryError::Length {
-            what,
-            expected,
-            found,
-        })
+        MemoryError::check_length("the memory of an open loop", 0, memory.len())
     }
 }

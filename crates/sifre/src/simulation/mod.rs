@@ -64,7 +64,7 @@ impl Simulation {
     /// A simulation of these agents at time 0.
     ///
     /// # Errors
-    /// No agents, two of one name, an agent that looks at one that isn't there.
+    /// No agents, two of one name, an agent that looks at one that isn't there or can't have its step.
     pub fn new(members: Vec<Member>) -> Result<Self, SimulationError> {
         let names: Vec<String> = members.iter().map(|m| m.agent.name().to_owned()).collect();
         if names.is_empty() {
@@ -97,6 +97,7 @@ impl Simulation {
 
     fn add(&mut self, id: usize, Member { mut agent, step }: Member) -> Result<(), SimulationError> {
         agent.bind(&Directory {
+            step,
             asking: &self.names[id],
             names: &self.names,
         })?;

@@ -8,7 +8,7 @@ use quad_ndi::Reference;
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{QuadrotorError, Script, Setup, Start};
 use sifre::{
-    Follow, GridError, Member, Quadrotor, ResumeError, Schedule, Simulation, SimulationError,
+    BindError, Follow, GridError, Member, Quadrotor, ResumeError, Schedule, Simulation, SimulationError,
     SimulationSnapshot, SnapshotError, StepSize, StopCondition, Target, Who,
 };
 use std::sync::Arc;
@@ -56,7 +56,7 @@ fn exact_duplicate_names() {
 fn exact_unknown_agents() {
     let error = Simulation::new(vec![follower("a", "c"), target("b")]).unwrap_err();
     assert!(
-        matches!(&error, SimulationError::UnknownAgent(unknown) if unknown.wanted == "c" && unknown.known == ["b"])
+        matches!(&error, SimulationError::Bind(BindError::UnknownAgent(unknown)) if unknown.wanted == "c" && unknown.known == ["b"])
     );
     assert_eq!(
         error.to_string(),

@@ -3,6 +3,7 @@
 mod agreement;
 mod bad_input;
 mod convergence;
+mod ets_agent;
 mod laws;
 mod levels;
 mod recording;

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use quad_kinematics::Rotation;
 use sifre::black_box::{Frame, MemoryBox, Role};
 use sifre::{
-    Agent, AgentEvent, AgentId, Channel, Directory, Member, MemoryError, Moment, Published, Simulation,
-    StepSize, UnknownAgent,
+    Agent, AgentEvent, AgentId, BindError, Channel, Directory, Member, MemoryError, Moment, Published,
+    Simulation, StepSize,
 };
 
 /// Publishes the time of its latest instant as its x, and notes what it sees of another.
@@ -39,7 +39,7 @@ impl Agent for Probe {
         "probe"
     }
 
-    fn bind(&mut self, directory: &Directory<'_>) -> Result<(), UnknownAgent> {
+    fn bind(&mut self, directory: &Directory<'_>) -> Result<(), BindError> {
         self.looks_at = Some(directory.find(self.other)?);
         Ok(())
     }

@@ -7,7 +7,8 @@ use quad_ndi::{AnyController, C1, C3, Pid, PidGains, PidSettings, Reference, Set
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelChoice, Script, Setup, Start};
 use sifre::{
-    Facing, Follow, Member, Path, Quadrotor, Recording, RunReport, Schedule, Simulation, StepSize, Target,
+    Ets, EtsSetup, Facing, Follow, Member, Path, Quadrotor, Recording, RunReport, Schedule, Simulation,
+    StepSize, Target,
 };
 use std::sync::Arc;
 
@@ -134,13 +135,22 @@ impl Plan {
     }
 }
 
-/// The quadrotors of these plans and a target, in the order of `order`.
+/// A station that tracks the first quadrotor, its image noisy.
+fn station() -> Ets {
+    let mut setup = EtsSetup::nominal("station", name(0));
+    setup.station.frames.noise = 2.0;
+    setup.seed = 7;
+    Ets::new(setup)
+}
+
+/// The quadrotors of these plans, a target and a station, in the order of `order`.
 pub(crate) fn members(plans: &[Plan], order: &[usize]) -> Vec<Member> {
     let vehicle = vehicle();
     let count = plans.len();
     let member = |&i: &usize| match plans.get(i) {
         Some(plan) => plan.member(i, count, &vehicle),
-        None => Member::new(Target::new("target", lap()), ms(3.0)),
+        None if i == count => Member::new(Target::new("target", lap()), ms(3.0)),
+        None => Member::new(station(), ms(4.0)),
     };
     order.iter().map(member).collect()
 }
@@ -161,9 +171,9 @@ fn lap() -> Path {
     Path::Scripted(quad_ndi::Trajectory::through(&points).expect("two waypoints"))
 }
 
-/// Everybody in the order of their numbers; the target last.
+/// Everybody in the order of their numbers; target and station last.
 pub(crate) fn in_order(plans: &[Plan]) -> Vec<usize> {
-    (0..=plans.len()).collect()
+    (0..plans.len() + 2).collect()
 }
 
 fn point() -> impl Strategy<Value = [f64; 3]> {
