@@ -20,6 +20,17 @@ pub struct StepSize {
 }
 
 impl StepSize {
+    /// A thousandth of a second.
+    pub const MILLISECOND: Self = Self { ns: 1_000_000 };
+
+    /// The step that is a small number of times longer, at least once.
+    pub const fn times(self, factor: u8) -> Self {
+        // 2⁵⁰ ns times 255 is below 2⁶⁴; a simulation ends at 2⁵⁰ ns, so a longer step is taken once.
+        Self {
+            ns: self.ns * if factor == 0 { 1 } else { factor as u64 },
+        }
+    }
+
     /// The step of a number of nanoseconds.
     ///
     /// # Errors

@@ -12,6 +12,7 @@ mod optimiser;
 pub mod quadrotor;
 mod schedule;
 mod simulation;
+pub mod steps;
 mod target;
 
 pub use crate::ets::{Ets, EtsSetup};
