@@ -117,15 +117,25 @@ impl<R: Real> Ets<R> {
             .command(&plant, &state.sight.aim(&self.tracker))
     }
 
-    /// Step number `n` of the clock, from time `n h` to `(n + 1) h`.
+    /// Step number `n` of the clock, from time `n h` to `(n + 1) h`: [`Ets::look`], then [`Ets::turn`].
     #[inline(always)]
     pub fn step(&self, clock: &FrameClock, n: u64, state: &EtsState<R>, input: &EtsInput<R>) -> EtsState<R> {
-        let h = constant(clock.step_s());
+        self.turn(&self.look(clock, n, state, input), constant(clock.step_s()))
+    }
+
+    /// The first half of step `n`: a frame is captured and delivered if it is due; no time passes.
+    #[inline(always)]
+    pub fn look(&self, clock: &FrameClock, n: u64, state: &EtsState<R>, input: &EtsInput<R>) -> EtsState<R> {
         let sight = self.see(clock.event(n), state, input);
-        let state = EtsState { sight, ..*state };
+        EtsState { sight, ..*state }
+    }
+
+    /// The second half of a step: the gimbal turns for `h` seconds under the [`Ets::command`] of now.
+    #[inline(always)]
+    pub fn turn(&self, state: &EtsState<R>, h: R) -> EtsState<R> {
         EtsState {
-            gimbal: rk4_step(&self.gimbal, &state.gimbal, &self.command(&state), h),
-            sight: sight.aged(h),
+            gimbal: rk4_step(&self.gimbal, &state.gimbal, &self.command(state), h),
+            sight: state.sight.aged(h),
         }
     }
 

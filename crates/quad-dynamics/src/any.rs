@@ -152,6 +152,14 @@ impl<R: Real> AnyQuadrotor<R> {
         each_level!(self, q => q.model.flight(&q.state))
     }
 
+    /// Shows what can be seen of the flight to `look`: as [`Self::flight`], but only what is looked at is computed.
+    ///
+    /// The look is compiled into each level, so that Euler angles that nobody asks for cost nothing.
+    #[inline(always)]
+    pub fn see<T>(&self, look: impl FnOnce(&Flight<R>) -> T) -> T {
+        each_level!(self, q => look(&q.model.flight(&q.state)))
+    }
+
     /// The flight in terms that every level understands.
     pub fn snapshot(&self, input: &Input<R>) -> Snapshot<R> {
         each_level!(self, q => q.model.snapshot(&q.state, input))
@@ -178,5 +186,21 @@ impl<R: Real> AnyQuadrotor<R> {
     /// The state as numbers, in the order of its [`Flat`] implementation.
     pub fn write_state(&self, out: &mut [R]) {
         each_level!(self, q => q.state.write(out));
+    }
+
+    /// Takes the state from numbers in the order of its [`Flat`] implementation: the reverse of
+    /// [`Self::write_state`].
+    ///
+    /// # Panics
+    /// If there are fewer than [`Self::state_len`] numbers: a programming error, not an input error.
+    pub fn read_state(&mut self, values: &[R]) {
+        each_level!(self, q => q.state = Flat::read(values));
+    }
+
+    /// Takes over a flight that another model flew until now, driven by this input.
+    ///
+    /// As [`Self::from_snapshot`] with the model that is here already: nothing is built, so nothing can fail.
+    pub fn adopt(&mut self, snapshot: &Snapshot<R>, input: &Input<R>) {
+        each_level!(self, q => q.state = q.model.adopt(snapshot, input));
     }
 }

@@ -2,9 +2,10 @@
 
 use crate::controller::{Controller, ControllerError};
 use crate::pid::Pid;
-use crate::{C1, C2, C3, Reference};
-use quad_dynamics::{CommandLimits, Flight, Level};
-use quad_math::Real;
+use crate::{C1, C2, C3, LoopState, Reference, closed_loop_step};
+use nalgebra::Vector3;
+use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, InFlight, Level, QuadrotorModel};
+use quad_math::{Flat, Real};
 
 /// A controller together with what it remembers.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +48,26 @@ macro_rules! each_controller {
     };
 }
 
+/// [`closed_loop_step`] in place.
+#[inline(always)]
+fn step_together<R: Real, C: Controller<R>, M: QuadrotorModel<R>>(
+    in_charge: &mut InCharge<R, C>,
+    in_flight: &mut InFlight<R, M>,
+    reference: &Reference<R>,
+    wind: &Vector3<R>,
+    h: R,
+) -> [R; 4] {
+    let now = LoopState {
+        state: in_flight.state,
+        memory: in_charge.memory,
+        commands: [R::zero(); 4],
+    };
+    let next = closed_loop_step(&in_flight.model, &in_charge.controller, &now, reference, wind, h);
+    in_flight.state = next.state;
+    in_charge.memory = next.memory;
+    next.commands
+}
+
 impl<R: Real> AnyController<R> {
     /// Commands for the next `dt` seconds.
     #[inline]
@@ -55,6 +76,27 @@ impl<R: Real> AnyController<R> {
             let answer = c.controller.control(&c.memory, flight, reference, dt);
             c.memory = answer.memory;
             answer.commands
+        })
+    }
+
+    /// One closed-loop step of `h` seconds with a quadrotor of any level: [`closed_loop_step`] by value. Gives the
+    /// commands that were held over the step.
+    ///
+    /// Controller and model are compiled into one step for every pair, which is faster than
+    /// [`Self::update`] and [`AnyQuadrotor::step`] one after the other, and the same bit for bit.
+    pub fn fly(
+        &mut self,
+        quadrotor: &mut AnyQuadrotor<R>,
+        reference: &Reference<R>,
+        wind: &Vector3<R>,
+        h: R,
+    ) -> [R; 4] {
+        each_controller!(self, c => match quadrotor {
+            AnyQuadrotor::One(q) => step_together(c, q, reference, wind, h),
+            AnyQuadrotor::Two(q) => step_together(c, q, reference, wind, h),
+            AnyQuadrotor::Three(q) => step_together(c, q, reference, wind, h),
+            AnyQuadrotor::Four(q) => step_together(c, q, reference, wind, h),
+            AnyQuadrotor::Five(q) => step_together(c, q, reference, wind, h),
         })
     }
 
@@ -71,6 +113,30 @@ impl<R: Real> AnyController<R> {
             C::LEVEL
         }
         each_controller!(self, c => level(c))
+    }
+
+    /// How many numbers its memory has.
+    pub fn memory_len(&self) -> usize {
+        fn len<R: Real, C: Controller<R>>(_: &InCharge<R, C>) -> usize {
+            <C::Memory as Flat<R>>::LEN
+        }
+        each_controller!(self, c => len(c))
+    }
+
+    /// The memory as numbers, in the order of its [`Flat`] implementation.
+    ///
+    /// # Panics
+    /// If `out` is shorter than [`Self::memory_len`]: a programming error, not an input error.
+    pub fn write_memory(&self, out: &mut [R]) {
+        each_controller!(self, c => Flat::<R>::write(&c.memory, out));
+    }
+
+    /// Takes the memory from numbers: the reverse of [`Self::write_memory`].
+    ///
+    /// # Panics
+    /// If there are fewer than [`Self::memory_len`] numbers: a programming error, not an input error.
+    pub fn read_memory(&mut self, values: &[R]) {
+        each_controller!(self, c => c.memory = Flat::<R>::read(values));
     }
 
     /// Checks that the controller may fly a model of the level.

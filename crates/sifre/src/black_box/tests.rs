@@ -1,0 +1,170 @@
+use super::*;
+use proptest::prelude::*;
+
+fn channels(width: usize) -> Vec<Channel> {
+    (0..width)
+        .map(|i| Channel::new(format!("a,\"{i}\".x"), Role::Output, "m/s", Frame::Camera))
+        .collect()
+}
+
+/// Writes rows to a black box as the engine does.
+fn write(to: &mut dyn BlackBox, width: usize, rows: &[(u64, Vec<f64>)]) {
+    to.begin(&channels(width)).unwrap();
+    for (time_ns, row) in rows {
+        to.record(*time_ns, row).unwrap();
+    }
+    to.finish().unwrap();
+}
+
+/// The same channels, instants and bits.
+fn same(recording: &Recording, width: usize, rows: &[(u64, Vec<f64>)]) -> bool {
+    let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+    recording.channels() == channels(width)
+        && recording.len() == rows.len()
+        && recording
+            .rows()
+            .zip(rows)
+            .all(|(read, (time_ns, row))| read.time_ns == *time_ns && bits(read.values) == bits(row))
+}
+
+fn rows() -> impl Strategy<Value = (usize, Vec<(u64, Vec<f64>)>)> {
+    let number = any::<u64>().prop_map(|bits| {
+        let number = f64::from_bits(bits);
+        // CSV has one NaN.
+        if number.is_nan() { f64::NAN } else { number }
+    });
+    (1..4_usize).prop_flat_map(move |width| {
+        let row = prop::collection::vec(number.clone(), width);
+        let rows = prop::collection::vec((0..1_u64 << 50, row), 0..8);
+        (Just(width), rows)
+    })
+}
+
+proptest! {
+    #[test]
+    fn prop_every_form_reads_back_bit_for_bit((width, rows) in rows()) {
+        let mut memory = MemoryBox::default();
+        write(&mut memory, width, &rows);
+        prop_assert!(same(&memory.recording, width, &rows));
+
+        let mut csv = CsvBox::new(Vec::new());
+        write(&mut csv, width, &rows);
+        let text = csv.into_inner().unwrap();
+        prop_assert!(same(&Recording::from_csv(&text[..]).unwrap(), width, &rows));
+
+        let mut json = JsonLinesBox::new(Vec::new());
+        write(&mut json, width, &rows);
+        let text = json.into_inner().unwrap();
+        prop_assert!(same(&Recording::from_json_lines(&text[..]).unwrap(), width, &rows));
+    }
+
+    #[cfg(feature = "parquet")]
+    #[test]
+    fn prop_parquet_reads_back_bit_for_bit((width, rows) in rows()) {
+        let mut parquet = ParquetBox::new(Vec::new());
+        write(&mut parquet, width, &rows);
+        let file = bytes(parquet);
+        prop_assert!(same(&Recording::from_parquet(file).unwrap(), width, &rows));
+    }
+}
+
+#[cfg(feature = "parquet")]
+fn bytes(parquet: ParquetBox<Vec<u8>>) -> bytes::Bytes {
+    parquet.into_inner().unwrap().into()
+}
+
+#[test]
+fn exact_csv_is_what_the_documentation_shows() {
+    let mut csv = CsvBox::new(Vec::new());
+    let channel = Channel::new("alpha.position.x", Role::State, "m", Frame::World);
+    csv.begin(&[channel]).unwrap();
+    csv.record(1_500_000_000, &[0.5]).unwrap();
+    let text = String::from_utf8(csv.into_inner().unwrap()).unwrap();
+    let expected = "# {\"sifre_recording\":1,\"channels\":[{\"name\":\"alpha.position.x\",\"role\":\"state\",\"unit\":\"m\",\"frame\":\"world\"}]}\n\
+                    time_s,alpha.position.x\n1.500000000,0.5\n";
+    assert_eq!(text, expected);
+}
+
+#[test]
+fn exact_wrong_files_are_errors_that_say_where() {
+    let header = Header::text(&channels(1)).unwrap();
+    let wrong = |rest: &str| Recording::from_csv(format!("# {header}\ntime_s,x\n{rest}").as_bytes());
+    assert!(matches!(
+        Recording::from_csv(&b"time_s,x\n"[..]),
+        Err(BlackBoxError::NoHeader { .. })
+    ));
+    assert!(matches!(
+        wrong("0.000000000,1\n0.001000000\n"),
+        Err(BlackBoxError::RowLength {
+            row: 2,
+            expected: 1,
+            found: 0
+        })
+    ));
+    assert!(matches!(
+        wrong("0.000000000,one\n"),
+        Err(BlackBoxError::NotANumber { row: 1, .. })
+    ));
+    assert!(matches!(
+        wrong("0.1,1\n"),
+        Err(BlackBoxError::NotANumber { row: 1, .. })
+    ));
+    let newer = header.replace("\"sifre_recording\":1", "\"sifre_recording\":2");
+    assert!(matches!(
+        Recording::from_json_lines(newer.as_bytes()),
+        Err(BlackBoxError::Version {
+            expected: 1,
+            found: 2
+        })
+    ));
+    let cut = format!("{header}\n{{\"time_ns\":0,\"val");
+    assert!(matches!(
+        Recording::from_json_lines(cut.as_bytes()),
+        Err(BlackBoxError::Json { line: 2, .. })
+    ));
+    assert!(matches!(
+        Recording::from_json_lines(&b""[..]),
+        Err(BlackBoxError::NoHeader { .. })
+    ));
+}
+
+/// A disk that is full after so many bytes.
+struct Full(usize);
+
+impl std::io::Write for Full {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0 = self
+            .0
+            .checked_sub(bytes.len())
+            .ok_or_else(|| std::io::Error::from(std::io::ErrorKind::StorageFull))?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn exact_a_full_disk_is_an_error() {
+    let fill = |to: &mut dyn BlackBox| -> Result<(), BlackBoxError> {
+        to.begin(&channels(1))?;
+        for k in 0..10_000 {
+            to.record(k, &[0.1])?;
+        }
+        to.finish()
+    };
+    assert!(matches!(
+        fill(&mut CsvBox::new(Full(20_000))),
+        Err(BlackBoxError::Csv(_) | BlackBoxError::Io(_))
+    ));
+    assert!(matches!(
+        fill(&mut JsonLinesBox::new(Full(20_000))),
+        Err(BlackBoxError::Io(_))
+    ));
+    #[cfg(feature = "parquet")]
+    assert!(matches!(
+        fill(&mut ParquetBox::new(Full(20_000))),
+        Err(BlackBoxError::Parquet(_))
+    ));
+}

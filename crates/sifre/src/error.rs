@@ -1,0 +1,170 @@
+//! Why a simulation can't be put together, asked to run, or resumed.
+
+use crate::agent::MemoryError;
+use quad_math::GridError;
+
+/// An agent looks at another that isn't there.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("agent \"{agent}\" looks at \"{wanted}\", which {}", suggestion(.wanted, .agent, .known))]
+pub struct UnknownAgent {
+    /// The agent that looks.
+    pub agent: String,
+    /// The name it looks for.
+    pub wanted: String,
+    /// The agents there are besides it.
+    pub known: Vec<String>,
+}
+
+fn suggestion(wanted: &str, agent: &str, known: &[String]) -> String {
+    let what = if wanted == agent {
+        "is itself"
+    } else {
+        "is not in the simulation"
+    };
+    if known.is_empty() {
+        format!("{what}: there are no others; add the agent")
+    } else {
+        format!("{what}: add the agent or name one of {}", known.join(", "))
+    }
+}
+
+/// Why an agent can't take its place in a simulation.
+#[derive(Debug, thiserror::Error)]
+pub enum BindError {
+    /// It looks at an agent that isn't there.
+    #[error(transparent)]
+    UnknownAgent(#[from] UnknownAgent),
+    /// It can't have the step that it was given.
+    #[error("agent \"{agent}\" can't have a step of {step_s} s: {source}")]
+    Step {
+        /// The agent.
+        agent: String,
+        /// The step, s.
+        step_s: f64,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+}
+
+/// Why a simulation can't be, or can't run.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulationError {
+    /// No agents.
+    #[error("a simulation needs at least one agent: add a quadrotor, a target or an agent of your own")]
+    Empty,
+    /// Two agents of one name.
+    #[error("two agents are called \"{name}\": give each its own name")]
+    DuplicateName {
+        /// The name.
+        name: String,
+    },
+    /// An agent that can't take its place.
+    #[error(transparent)]
+    Bind(#[from] BindError),
+    /// A time that the clock doesn't have.
+    #[error("the end of the run: {0}")]
+    Time(#[from] GridError),
+    /// An end before the present.
+    #[error("the run is to end at {end_s} s, but the simulation is at {now_s} s already: give a later end")]
+    EndBeforeNow {
+        /// The end asked for, s.
+        end_s: f64,
+        /// The present, s.
+        now_s: f64,
+    },
+    /// A stop condition on an agent that isn't there.
+    #[error("a stop condition is on agent \"{wanted}\", which is not in the simulation: name one of {}", .known.join(", "))]
+    UnknownInCondition {
+        /// The name.
+        wanted: String,
+        /// The agents there are.
+        known: Vec<String>,
+    },
+    /// A black box was attached while an agent that it is to record is between two instants.
+    #[error(
+        "a black box can't be attached at {now_s} s: agent \"{agent}\" is between two of its instants and due at {due_s} s; \
+         attach it before the run, or at a common multiple of the agents' steps"
+    )]
+    AttachedMidStep {
+        /// The agent.
+        agent: String,
+        /// The present, s.
+        now_s: f64,
+        /// The agent's next instant, s.
+        due_s: f64,
+    },
+    /// A black box could not be opened.
+    #[error("the black box can't be started: {0}")]
+    BlackBox(#[from] crate::BlackBoxError),
+}
+
+/// Why a snapshot can't be taken or resumed.
+#[derive(Debug, thiserror::Error)]
+pub enum SnapshotError {
+    /// It is no snapshot, or can't be written as one.
+    #[error("not a snapshot of a simulation: {0}")]
+    Format(#[from] serde_json::Error),
+    /// A snapshot of another version of the format.
+    #[error("the snapshot has format {found}, this version reads format {expected}")]
+    Version {
+        /// The format read.
+        expected: u32,
+        /// The format found.
+        found: u32,
+    },
+    /// A time beyond the clock.
+    #[error("the snapshot's time {time_ns} ns is beyond the clock's end at 2^50 ns")]
+    Time {
+        /// The time, ns.
+        time_ns: u64,
+    },
+    /// The snapshot has other agents than the simulation.
+    #[error(
+        "the snapshot has agents {}, the simulation has {}: put the simulation together as it was",
+        .snapshot.join(", "), .simulation.join(", ")
+    )]
+    OtherAgents {
+        /// The snapshot's agents.
+        snapshot: Vec<String>,
+        /// The simulation's.
+        simulation: Vec<String>,
+    },
+    /// An agent of another kind.
+    #[error("agent \"{agent}\" is a {found} in the snapshot and a {expected} here")]
+    OtherKind {
+        /// The agent.
+        agent: String,
+        /// The kind here.
+        expected: String,
+        /// The kind in the snapshot.
+        found: String,
+    },
+    /// An agent with another step.
+    #[error("agent \"{agent}\" has a step of {found_s} s in the snapshot and of {expected_s} s here")]
+    OtherStep {
+        /// The agent.
+        agent: String,
+        /// The step here, s.
+        expected_s: f64,
+        /// The step in the snapshot, s.
+        found_s: f64,
+    },
+    /// What an agent published or recorded has the wrong number of numbers.
+    #[error("agent \"{agent}\" has {found} numbers in the snapshot where {expected} belong")]
+    Length {
+        /// The agent.
+        agent: String,
+        /// How many belong there.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// An agent can't take up its state.
+    #[error("agent \"{agent}\": {source}")]
+    Memory {
+        /// The agent.
+        agent: String,
+        /// Why.
+        source: Box<MemoryError>,
+    },
+}

@@ -1,0 +1,176 @@
+//! Guidance: what a quadrotor is asked to do, as a function of the time and of what others have published.
+//!
+//! ```text
+//! facing an agent   ψ = atan2(Δy, Δx),  ψ̇ = (Δx Δv_y − Δy Δv_x) / (Δx² + Δy²)
+//! ```
+//!
+//! with Δ from the quadrotor to the agent, both as published; higher derivatives of the heading are left at
+//! zero. Near the vertical above or below the agent, where there is no bearing, the path's own heading holds.
+//! Source: thesis appendix A (the quadrotor yaws to face the ground station).
+
+use crate::agent::{AgentId, Directory, Moment};
+use crate::error::UnknownAgent;
+use nalgebra::Vector3;
+use quad_ndi::{AttitudeFeedForward, FlatOutput, Reference, TiltLaw, Trajectory, TrajectoryError, Waypoint};
+use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
+
+/// Horizontal distance below which an agent has no bearing, m.
+const LEAST_DISTANCE: f64 = 1e-3;
+
+/// Anything that tells a quadrotor what to do.
+///
+/// A pure function: what it answers depends on itself and the [`Moment`] alone, so there is nothing to save.
+pub trait Guidance: Debug + Send {
+    /// Looks up the agents that it will look at.
+    ///
+    /// # Errors
+    /// A name that nobody has.
+    fn bind(&mut self, _directory: &Directory<'_>) -> Result<(), UnknownAgent> {
+        Ok(())
+    }
+
+    /// What to do from this instant on.
+    fn reference(&self, now: &Moment<'_>) -> Reference<f64>;
+}
+
+/// A fixed reference.
+impl Guidance for Reference<f64> {
+    #[inline]
+    fn reference(&self, _now: &Moment<'_>) -> Reference<f64> {
+        *self
+    }
+}
+
+/// A trajectory with the rates of the attitude that it implies fed forward.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mission {
+    /// Where to be when.
+    pub trajectory: Trajectory,
+    /// Gravity g, m/s².
+    pub gravity: f64,
+    /// How acceleration and tilt go together: small angles for c1, exact above.
+    pub tilt_law: TiltLaw,
+}
+
+impl Mission {
+    /// The mission through waypoints in gravity g, m/s².
+    ///
+    /// # Errors
+    /// Waypoints that make no trajectory.
+    pub fn through(waypoints: &[Waypoint], gravity: f64, tilt_law: TiltLaw) -> Result<Self, TrajectoryError> {
+        Ok(Self {
+            trajectory: Trajectory::through(waypoints)?,
+            gravity,
+            tilt_law,
+        })
+    }
+}
+
+impl Guidance for Mission {
+    fn reference(&self, now: &Moment<'_>) -> Reference<f64> {
+        Reference::following(
+            self.trajectory.flat_output(now.time_s),
+            self.gravity,
+            self.tilt_law,
+        )
+    }
+}
+
+/// Keep a fixed offset from another agent and its velocity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Follow {
+    /// Name of the agent.
+    pub agent: String,
+    /// Offset from it in W, m.
+    pub offset_m: [f64; 3],
+    /// Heading ψ, rad.
+    #[serde(default)]
+    pub yaw_rad: f64,
+    #[serde(skip)]
+    leader: Option<AgentId>,
+}
+
+impl Follow {
+    /// Keep this offset, m in W, from the agent of this name, at this heading, rad.
+    pub fn agent(name: impl Into<String>, offset_m: [f64; 3], yaw_rad: f64) -> Self {
+        Self {
+            agent: name.into(),
+            offset_m,
+            yaw_rad,
+            leader: None,
+        }
+    }
+}
+
+impl Guidance for Follow {
+    fn bind(&mut self, directory: &Directory<'_>) -> Result<(), UnknownAgent> {
+        self.leader = Some(directory.find(&self.agent)?);
+        Ok(())
+    }
+
+    fn reference(&self, now: &Moment<'_>) -> Reference<f64> {
+        // Bound when the simulation was put together; until then it leads itself.
+        let leader = now.published(self.leader.unwrap_or(now.me));
+        let mut reference = Reference::hold(leader.position + Vector3::from(self.offset_m), self.yaw_rad);
+        reference.flat.velocity = leader.velocity;
+        reference
+    }
+}
+
+/// Guidance with its heading turned towards another agent.
+#[derive(Debug)]
+pub struct Facing<G> {
+    /// Where to be.
+    pub guidance: G,
+    /// Name of the agent to face.
+    pub agent: String,
+    faced: Option<AgentId>,
+}
+
+impl<G: Guidance> Facing<G> {
+    /// This guidance, facing the agent of this name.
+    pub fn agent(guidance: G, name: impl Into<String>) -> Self {
+        Self {
+            guidance,
+            agent: name.into(),
+            faced: None,
+        }
+    }
+}
+
+impl<G: Guidance> Guidance for Facing<G> {
+    fn bind(&mut self, directory: &Directory<'_>) -> Result<(), UnknownAgent> {
+        self.faced = Some(directory.find(&self.agent)?);
+        self.guidance.bind(directory)
+    }
+
+    fn reference(&self, now: &Moment<'_>) -> Reference<f64> {
+        let path = self.guidance.reference(now);
+        let (own, faced) = (now.own(), now.published(self.faced.unwrap_or(now.me)));
+        let (d, v) = (faced.position - own.position, faced.velocity - own.velocity);
+        let square = d.x * d.x + d.y * d.y;
+        if square < LEAST_DISTANCE * LEAST_DISTANCE {
+            return path;
+        }
+        let yaw_rate = (d.x * v.y - d.y * v.x) / square;
+        let mut rates = path.attitude.rates;
+        rates.z = yaw_rate;
+        let without_yaw = |v: Vector3<f64>| Vector3::new(v.x, v.y, 0.0);
+        Reference {
+            flat: FlatOutput {
+                yaw: quad_math::atan2(d.y, d.x),
+                yaw_rate,
+                yaw_acceleration: 0.0,
+                yaw_jerk: 0.0,
+                ..path.flat
+            },
+            attitude: AttitudeFeedForward {
+                rates,
+                accelerations: without_yaw(path.attitude.accelerations),
+                jerks: without_yaw(path.attitude.jerks),
+            },
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! The quadrotor as an agent: a model of any level, a pilot, guidance, and a script of what happens to it.
+//!
+//! ```text
+//! decide at t_k    reference = guidance(t_k, others),  u_k = pilot(flight_k, reference) + disturbance
+//! advance          x_k+1 = Φ_h(x_k, u_k, wind)          RK4, commands and wind held
+//! ```
+//!
+//! The same operations in the same order as [`quad_ndi::closed_loop_step`], so that engine and rollout agree bit for
+//! bit. The level may change at any of the agent's instants, before it decides: the new model adopts the flight
+//! (lift or restrict, [`quad_dynamics::Snapshot`]), so position, velocity, attitude and rates go on without a
+//! jump, and thrust and torque where the new level has states for them.
+
+mod pilot;
+mod record;
+mod setup;
+
+pub use pilot::{OpenLoop, Pilot};
+pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};
+
+use crate::agent::{Agent, Directory, MemoryError, Moment, Published};
+use crate::black_box::Channel;
+use crate::error::BindError;
+use crate::event::AgentEvent;
+use crate::exact::{Exact, exact, plain};
+use nalgebra::Vector3;
+use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, PhenomenonSet, Vehicle};
+use quad_math::FixedStep;
+use quad_ndi::{Reference, check_pairing};
+use serde::{Deserialize, Serialize};
+
+/// A quadrotor at any level, under any pilot, with any guidance.
+#[derive(Debug)]
+pub struct Quadrotor {
+    setup: Setup,
+    quadrotor: AnyQuadrotor<f64>,
+    reference: Reference<f64>,
+    /// Commands at the rotors, disturbance included, and wind.
+    input: Input<f64>,
+    /// The models that the script will ask for, in its order.
+    scripted: Vec<AnyQuadrotor<f64>>,
+    /// The entry of the script's levels in force.
+    entry: Option<usize>,
+    /// One RK4 step per step and no disturbance of the commands: model and controller may fly as one.
+    is_plain: bool,
+}
+
+/// All that a quadrotor needs to go on.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Memory {
+    level: Level,
+    phenomena: PhenomenonSet,
+    entry: Option<usize>,
+    state: Vec<Exact>,
+    pilot: Vec<Exact>,
+    commands: [Exact; 4],
+    wind: [Exact; 3],
+}
+
+/// A model of the vehicle in hover.
+fn model(
+    vehicle: &Vehicle,
+    choice: &LevelChoice,
+    at: Vector3<f64>,
+    yaw: f64,
+) -> Result<AnyQuadrotor<f64>, BuildError> {
+    AnyQuadrotor::hovering(choice.level, vehicle, &choice.phenomena(), at, yaw)
+}
+
+impl Quadrotor {
+    /// A quadrotor in hover, ready to fly.
+    ///
+    /// # Errors
+    /// A model that can't be built, now or at a scripted level; a pilot above a model's level; numbers that are not
+    /// finite.
+    pub fn new(setup: Setup) -> Result<Self, QuadrotorError> {
+        setup.check_numbers()?;
+        let build = |choice: &LevelChoice| {
+            let name = || setup.name.clone();
+            check_pairing(setup.pilot.level(), choice.level)
+                .map_err(|error| QuadrotorError::controller(name(), error))?;
+            model(&setup.vehicle, choice, setup.position(), setup.start.yaw_rad)
+                .map_err(|error| QuadrotorError::build(name(), error))
+        };
+        let quadrotor = build(&setup.level)?;
+        let scripted = setup.script.level.values().map(build).collect::<Result<_, _>>()?;
+        Ok(Self {
+            reference: Reference::hold(setup.position(), setup.start.yaw_rad),
+            input: quadrotor.hover_input(),
+            quadrotor,
+            scripted,
+            entry: None,
+            is_plain: setup.method == FixedStep::Rk4
+                && setup.substeps.get() == 1
+                && setup.script.command_offset.values().next().is_none(),
+            setup,
+        })
+    }
+
+    /// The level it flies at.
+    pub fn level(&self) -> Level {
+        self.quadrotor.level()
+    }
+
+    /// The flight at its latest instant.
+    pub fn flight(&self) -> Flight<f64> {
+        self.quadrotor.flight()
+    }
+
+    /// The model and its state at its latest instant.
+    pub fn model(&self) -> &AnyQuadrotor<f64> {
+        &self.quadrotor
+    }
+
+    /// Commands at the rotors and wind, from its latest instant on.
+    pub fn input(&self) -> &Input<f64> {
+        &self.input
+    }
+
+    /// The same flight goes on at another level.
+    ///
+    /// # Errors
+    /// A model that can't be built, or a pilot above its level; the flight then goes on as it was.
+    pub fn change_level(&mut self, choice: &LevelChoice) -> Result<AgentEvent, QuadrotorError> {
+        let name = || self.setup.name.clone();
+        check_pairing(self.setup.pilot.level(), choice.level)
+            .map_err(|error| QuadrotorError::controller(name(), error))?;
+        let next = model(&self.setup.vehicle, choice, Vector3::zeros(), 0.0)
+            .map_err(|error| QuadrotorError::build(name(), error))?;
+        Ok(self.go_on_as(next))
+    }
+
+    /// The flight goes on with this model.
+    fn go_on_as(&mut self, mut next: AnyQuadrotor<f64>) -> AgentEvent {
+        next.adopt(&self.quadrotor.snapshot(&self.input), &self.input);
+        let (from, to) = (self.quadrotor.level(), next.level());
+        self.setup.pilot.level_changed(&self.quadrotor.flight());
+        self.quadrotor = next;
+        AgentEvent::LevelChanged { from, to }
+    }
+
+    /// Velocity of the air in W, m/s.
+    #[inline]
+    fn wind(&self, now: &Moment<'_>) -> Vector3<f64> {
+        let wind = self.setup.script.wind_m_s.at(now.time_ns);
+        wind.copied().map_or_else(Vector3::zeros, Vector3::from)
+    }
+
+    /// Changes the level if the script says so at this instant.
+    #[inline]
+    fn follow_script(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        if self.scripted.is_empty() {
+            return None;
+        }
+        self.change_if_due(now)
+    }
+
+    fn change_if_due(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        let entry = self.setup.script.level.place_at(now.time_ns)?;
+        if self.entry == Some(entry) {
+            return None;
+        }
+        self.entry = Some(entry);
+        let next = self.scripted[entry].clone();
+        Some(self.go_on_as(next))
+    }
+
+    /// Its memory, checked: the model it flies and nothing changed yet.
+    fn read(&self, memory: &serde_json::Value) -> Result<(Memory, AnyQuadrotor<f64>), MemoryError> {
+        let memory = Memory::deserialize(memory)?;
+        check_pairing(self.setup.pilot.level(), memory.level)?;
+        let choice = LevelChoice {
+            level: memory.level,
+            phenomena: Some(memory.phenomena.clone()),
+        };
+        let mut quadrotor = model(&self.setup.vehicle, &choice, Vector3::zeros(), 0.0)?;
+        MemoryError::check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
+        quadrotor.read_state(&plain(&memory.state));
+        Ok((memory, quadrotor))
+    }
+}
+
+impl Agent for Quadrotor {
+    fn name(&self) -> &str {
+        &self.setup.name
+    }
+
+    fn kind(&self) -> &'static str {
+        "quadrotor"
+    }
+
+    fn bind(&mut self, directory: &Directory<'_>) -> Result<(), BindError> {
+        Ok(self.setup.guidance.bind(directory)?)
+    }
+
+    #[inline(always)]
+    fn published(&self) -> Published {
+        self.quadrotor.see(
+            #[inline(always)]
+            |flight| Published {
+                position: flight.position,
+                velocity: flight.velocity,
+                rotation: flight.rotation,
+                body_rates: flight.body_rates,
+            },
+        )
+    }
+
+    fn decide(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        let event = self.follow_script(now);
+        self.reference = self.setup.guidance.reference(now);
+        self.input.wind = self.wind(now);
+        self.input.commands = self.setup.pilot.commands(&self.quadrotor, &self.reference, now);
+        if let Some(offset) = self.setup.script.command_offset.at(now.time_ns) {
+            self.input.commands = std::array::from_fn(|i| self.input.commands[i] + offset[i]);
+        }
+        event
+    }
+
+    fn advance(&mut self, now: &Moment<'_>) {
+        let substeps = self.setup.substeps.get();
+        let h = now.step_s / f64::from(substeps);
+        for _ in 0..substeps {
+            self.quadrotor.step(self.setup.method, &self.input, h);
+        }
+    }
+
+    fn decide_and_advance(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        if !self.is_plain {
+            let event = self.decide(now);
+            self.advance(now);
+            return event;
+        }
+        let event = self.follow_script(now);
+        let reference = self.setup.guidance.reference(now);
+        self.input.wind = self.wind(now);
+        self.input.commands = self
+            .setup
+            .pilot
+            .fly(&mut self.quadrotor, &reference, &self.input.wind, now);
+        event
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        record::channels()
+    }
+
+    fn record(&self, row: &mut [f64]) {
+        record::write(self, row);
+    }
+
+    fn save(&self) -> Result<serde_json::Value, serde_json::Error> {
+        let mut state = vec![0.0; self.quadrotor.state_len()];
+        self.quadrotor.write_state(&mut state);
+        serde_json::to_value(Memory {
+            level: self.quadrotor.level(),
+            phenomena: self.quadrotor.phenomena().clone(),
+            entry: self.entry,
+            state: exact(&state),
+            pilot: exact(&self.setup.pilot.memory()),
+            commands: self.input.commands.map(Exact),
+            wind: <[f64; 3]>::from(self.input.wind).map(Exact),
+        })
+    }
+
+    fn restore(&mut self, memory: &serde_json::Value) -> Result<(), MemoryError> {
+        let (memory, quadrotor) = self.read(memory)?;
+        self.setup.pilot.restore(&plain(&memory.pilot))?;
+        self.quadrotor = quadrotor;
+        self.entry = memory.entry;
+        self.input.commands = memory.commands.map(|u| u.0);
+        self.input.wind = Vector3::from(memory.wind.map(|w| w.0));
+        Ok(())
+    }
+}

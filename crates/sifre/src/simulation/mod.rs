@@ -1,0 +1,204 @@
+//! The simulation: agents on one exact clock.
+//!
+//! Time is a whole number of nanoseconds. An agent with step h has its instants at `0, h, 2h, …`; steps need not
+//! be multiples of each other. At each instant of anyone, the agents due
+//!
+//! 1. publish,
+//! 2. decide, seeing what everybody has published up to now,
+//! 3. are recorded,
+//! 4. move to their next instant.
+//!
+//! Nothing that an agent does at an instant is visible to another before the first one's next instant, so neither the
+//! order of agents nor threads matter. Runs end at a time, at a [`StopCondition`], where an agent diverges, or where
+//! the [`Observer`] says so; they can always be continued, and [saved](Simulation::save) and
+//! [resumed](Simulation::resume), bit for bit.
+
+mod group;
+mod recorder;
+mod run;
+mod snapshot;
+mod stop;
+
+pub use group::Execution;
+pub use recorder::RecorderId;
+pub use snapshot::{AgentSnapshot, Phase, ResumeError, SimulationSnapshot};
+pub use stop::{
+    LastSeen, Observer, PROGRESS_EVERY, Progress, RunReport, RunStatus, Scene, StopCondition, Test, Who,
+};
+
+use crate::agent::{Agent, AgentId, Directory, Member, Published};
+use crate::clock::seconds;
+use crate::error::SimulationError;
+use crate::event::Event;
+use group::{Group, Slot};
+use recorder::Recorder;
+use std::any::Any;
+
+/// Agents, time, and what watches them.
+#[derive(Debug)]
+pub struct Simulation {
+    /// Names in the order in which the agents were given: the order of rows.
+    names: Vec<String>,
+    /// Where each of them is.
+    places: Vec<Place>,
+    groups: Vec<Group>,
+    /// What each has published last.
+    scene: Vec<Published>,
+    recorders: Vec<Recorder>,
+    recorders_ever: usize,
+    conditions: Vec<StopCondition>,
+    events: Vec<Event>,
+    execution: Execution,
+    now_ns: u64,
+    phase: Phase,
+}
+
+/// Where an agent is among the groups.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    group: usize,
+    slot: usize,
+}
+
+impl Simulation {
+    /// A simulation of these agents at time 0.
+    ///
+    /// # Errors
+    /// No agents, two of one name, an agent that looks at one that isn't there or can't have its step.
+    pub fn new(members: Vec<Member>) -> Result<Self, SimulationError> {
+        let names: Vec<String> = members.iter().map(|m| m.agent.name().to_owned()).collect();
+        if names.is_empty() {
+            return Err(SimulationError::Empty);
+        }
+        let mut sorted: Vec<&String> = names.iter().collect();
+        sorted.sort();
+        if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+            let name = pair[0].clone();
+            return Err(SimulationError::DuplicateName { name });
+        }
+        let mut simulation = Self {
+            places: Vec::with_capacity(names.len()),
+            groups: Vec::new(),
+            scene: members.iter().map(|m| m.agent.published()).collect(),
+            recorders: Vec::new(),
+            recorders_ever: 0,
+            conditions: Vec::new(),
+            events: Vec::new(),
+            execution: Execution::default(),
+            now_ns: 0,
+            phase: Phase::Fresh,
+            names,
+        };
+        for (id, member) in members.into_iter().enumerate() {
+            simulation.add(id, member)?;
+        }
+        Ok(simulation)
+    }
+
+    fn add(&mut self, id: usize, Member { mut agent, step }: Member) -> Result<(), SimulationError> {
+        agent.bind(&Directory {
+            step,
+            asking: &self.names[id],
+            names: &self.names,
+        })?;
+        let group = match self.groups.iter().position(|group| group.step == step) {
+            Some(group) => group,
+            None => {
+                self.groups.push(Group {
+                    step,
+                    next_ns: 0,
+                    slots: Vec::new(),
+                });
+                self.groups.len() - 1
+            }
+        };
+        let slots = &mut self.groups[group].slots;
+        let slot = slots.len();
+        slots.push(Slot {
+            id: AgentId(id),
+            row: vec![0.0; agent.channels().len()],
+            agent,
+            row_is_current: false,
+            event: None,
+        });
+        self.places.push(Place { group, slot });
+        Ok(())
+    }
+
+    /// Moves agents on other threads too, or on one only (the default).
+    pub fn execute(&mut self, execution: Execution) {
+        self.execution = execution;
+    }
+
+    /// Ends runs at this condition too.
+    ///
+    /// # Errors
+    /// If it is on an agent that isn't there.
+    pub fn stop_when(&mut self, condition: StopCondition) -> Result<(), SimulationError> {
+        if let StopCondition::Below {
+            who: Who::Agent(name),
+            ..
+        } = &condition
+            && !self.names.contains(name)
+        {
+            return Err(SimulationError::UnknownInCondition {
+                wanted: name.clone(),
+                known: self.names.clone(),
+            });
+        }
+        self.conditions.push(condition);
+        Ok(())
+    }
+
+    /// Forgets all stop conditions.
+    pub fn clear_stop_conditions(&mut self) {
+        self.conditions.clear();
+    }
+
+    /// The present, s.
+    pub fn now_s(&self) -> f64 {
+        seconds(self.now_ns)
+    }
+
+    /// The present, ns.
+    pub fn now_ns(&self) -> u64 {
+        self.now_ns
+    }
+
+    /// What happened so far, in order of time; by name at one instant.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Names of the agents, in the order in which they were given.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// What the agent of this name has published last.
+    pub fn published(&self, name: &str) -> Option<&Published> {
+        self.place(name).map(|id| &self.scene[id])
+    }
+
+    /// The agent of this name, if it is of this type.
+    pub fn agent<A: Agent>(&self, name: &str) -> Option<&A> {
+        let agent: &dyn Any = self.slot(self.place(name)?).agent.as_ref();
+        agent.downcast_ref()
+    }
+
+    /// The agent of this name, if it is of this type, to be changed between runs.
+    pub fn agent_mut<A: Agent>(&mut self, name: &str) -> Option<&mut A> {
+        let Place { group, slot } = self.places[self.place(name)?];
+        let agent: &mut dyn Any = self.groups[group].slots[slot].agent.as_mut();
+        agent.downcast_mut()
+    }
+
+    fn place(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|other| other == name)
+    }
+
+    fn slot(&self, id: usize) -> &Slot {
+        let Place { group, slot } = self.places[id];
+        &self.groups[group].slots[slot]
+    }
+}

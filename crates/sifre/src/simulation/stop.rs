@@ -1,0 +1,228 @@
+//! When and why a run ends, and who watches it.
+
+use crate::agent::Published;
+use crate::black_box::BlackBoxError;
+use crate::clock::seconds;
+use crate::event::Event;
+use std::fmt;
+use std::ops::ControlFlow;
+
+/// Whom a stop condition is on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Who {
+    /// Every agent.
+    Anyone,
+    /// The agent of this name.
+    Agent(String),
+}
+
+/// All that is published at an instant, as a stop condition sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The instant, ns.
+    pub time_ns: u64,
+    pub(super) names: &'a [String],
+    pub(super) published: &'a [Published],
+}
+
+impl Scene<'_> {
+    /// The instant, s.
+    pub fn time_s(&self) -> f64 {
+        seconds(self.time_ns)
+    }
+
+    /// What the agent of this name has published last.
+    pub fn of(&self, name: &str) -> Option<&Published> {
+        let place = self.names.iter().position(|other| other == name)?;
+        Some(&self.published[place])
+    }
+}
+
+/// A question about a [`Scene`].
+pub type Test = Box<dyn Fn(&Scene<'_>) -> bool + Send>;
+
+/// Ends a run besides its end time. Asked at every instant of an agent. (That an agent's numbers stop being numbers
+/// always ends a run.)
+pub enum StopCondition {
+    /// An agent's height `−z` is less than this, m.
+    Below {
+        /// Whose.
+        who: Who,
+        /// Height above the world's origin, m.
+        height_m: f64,
+    },
+    /// Whatever you like.
+    When {
+        /// What it means, for the report.
+        name: String,
+        /// Whether it is so.
+        test: Test,
+    },
+}
+
+impl StopCondition {
+    /// Anyone below ground: `z > 0`.
+    pub const fn below_ground() -> Self {
+        Self::Below {
+            who: Who::Anyone,
+            height_m: 0.0,
+        }
+    }
+
+    /// Whatever you like, with a name for the report.
+    pub fn when(name: impl Into<String>, test: impl Fn(&Scene<'_>) -> bool + Send + 'static) -> Self {
+        Self::When {
+            name: name.into(),
+            test: Box::new(test),
+        }
+    }
+
+    /// Why to stop now, if it is to be.
+    pub(super) fn met(&self, scene: &Scene<'_>) -> Option<RunStatus> {
+        match self {
+            Self::Below { who, height_m } => {
+                let mut all = scene.names.iter().zip(scene.published);
+                let below = |published: &Published| -published.position.z < *height_m;
+                let (agent, published) = match who {
+                    // The lowest, so that the order of agents doesn't matter.
+                    Who::Anyone => {
+                        all.filter(|(_, published)| below(published))
+                            .max_by(|(a, p), (b, q)| {
+                                p.position.z.total_cmp(&q.position.z).then_with(|| b.cmp(a))
+                            })?
+                    }
+                    Who::Agent(name) => all.find(|(other, p)| *other == name && below(p))?,
+                };
+                Some(RunStatus::Below {
+                    agent: agent.clone(),
+                    height_m: -published.position.z,
+                })
+            }
+            Self::When { name, test } => test(scene).then(|| RunStatus::Condition { name: name.clone() }),
+        }
+    }
+}
+
+impl fmt::Debug for StopCondition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Below { who, height_m } => write!(f, "Below({who:?}, {height_m} m)"),
+            Self::When { name, .. } => write!(f, "When({name})"),
+        }
+    }
+}
+
+/// The last finite state that an agent published.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LastSeen {
+    /// When, s.
+    pub time_s: f64,
+    /// What.
+    pub published: Published,
+}
+
+/// How a run ended. Whatever it was, all that was computed and recorded is kept.
+#[derive(Debug)]
+pub enum RunStatus {
+    /// At its end time.
+    Completed,
+    /// An agent is below the height of a stop condition.
+    Below {
+        /// The agent.
+        agent: String,
+        /// Its height, m.
+        height_m: f64,
+    },
+    /// A condition of the user's is met.
+    Condition {
+        /// Its name.
+        name: String,
+    },
+    /// An agent's numbers stopped being numbers.
+    Diverged {
+        /// The agent; the first by name if there are several.
+        agent: String,
+        /// The last finite state; `None` if it had none from the start.
+        last: Option<Box<LastSeen>>,
+    },
+    /// The observer asked for it.
+    Interrupted,
+    /// A black box failed; the simulation itself is sound and can go on without it.
+    RecordingFailed {
+        /// Why.
+        source: BlackBoxError,
+    },
+}
+
+impl RunStatus {
+    /// Whether the run reached its end time.
+    pub const fn is_completed(&self) -> bool {
+        matches!(self, Self::Completed)
+    }
+}
+
+impl fmt::Display for RunStatus {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Completed => write!(f, "completed"),
+            Self::Below { agent, height_m } => write!(f, "\"{agent}\" is at a height of {height_m} m"),
+            Self::Condition { name } => write!(f, "{name}"),
+            Self::Diverged {
+                agent,
+                last: Some(last),
+            } => {
+                write!(f, "\"{agent}\" diverged after {} s", last.time_s)
+            }
+            Self::Diverged { agent, last: None } => {
+                write!(f, "\"{agent}\" begins with numbers that are none")
+            }
+            Self::Interrupted => write!(f, "interrupted"),
+            Self::RecordingFailed { source } => write!(f, "{source}"),
+        }
+    }
+}
+
+/// What a run did.
+#[derive(Debug)]
+pub struct RunReport {
+    /// How it ended.
+    pub status: RunStatus,
+    /// When it ended, s.
+    pub time_s: f64,
+    /// Steps of agents that it took.
+    pub agent_steps: u64,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// The present, s.
+    pub time_s: f64,
+    /// The end asked for, s.
+    pub end_s: f64,
+    /// Steps of agents taken in this run.
+    pub agent_steps: u64,
+}
+
+/// Watches a run and may end it. `()` watches nothing; a closure that takes a [`Progress`] will do.
+pub trait Observer {
+    /// Told every [`PROGRESS_EVERY`] instants; [`ControlFlow::Break`] ends the run (after Ctrl-C, say), with all that
+    /// was computed kept and the simulation ready to go on.
+    fn progress(&mut self, _progress: &Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    /// Told what happens when it happens.
+    fn event(&mut self, _event: &Event) {}
+}
+
+/// Instants from one report of progress to the next.
+pub const PROGRESS_EVERY: u64 = 64;
+
+impl Observer for () {}
+
+impl<F: FnMut(&Progress) -> ControlFlow<()>> Observer for F {
+    fn progress(&mut self, progress: &Progress) -> ControlFlow<()> {
+        self(progress)
+    }
+}

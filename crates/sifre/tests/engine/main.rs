@@ -1,0 +1,12 @@
+//! The engine's laws and its answers to bad input, one module per subject.
+
+mod agreement;
+mod bad_input;
+mod convergence;
+mod ets_agent;
+mod laws;
+mod levels;
+mod recording;
+mod scheduling;
+mod stopping;
+mod support;
