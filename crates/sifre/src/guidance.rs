@@ -174,3 +174,93 @@ impl<G: Guidance> Guidance for Facing<G> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::agent::Published;
+    use crate::clock::StepSize;
+    use proptest::prelude::*;
+    use quad_kinematics::Rotation;
+
+    /// Two agents at a time, s, each on a straight line: `[x, y, z, v_x, v_y, v_z]` at time 0.
+    fn scene(lines: &[[f64; 6]; 2], time_s: f64) -> [Published; 2] {
+        lines.map(|l| {
+            let velocity = Vector3::new(l[3], l[4], l[5]);
+            let position = Vector3::new(l[0], l[1], l[2]) + velocity * time_s;
+            let at_rest = Published::at_rest(position, Rotation::identity());
+            Published { velocity, ..at_rest }
+        })
+    }
+
+    fn moment(scene: &[Published]) -> Moment<'_> {
+        let step = StepSize::MILLISECOND;
+        Moment {
+            time_s: 0.0,
+            time_ns: 0,
+            step,
+            step_s: step.seconds(),
+            me: AgentId(0),
+            scene,
+        }
+    }
+
+    fn facing() -> Facing<Reference<f64>> {
+        let names = ["me".to_owned(), "other".to_owned()];
+        let mut facing = Facing::agent(Reference::hold(Vector3::zeros(), 0.7), "other");
+        let directory = Directory {
+            step: StepSize::MILLISECOND,
+            asking: "me",
+            names: &names,
+        };
+        facing.bind(&directory).unwrap();
+        facing
+    }
+
+    proptest! {
+        /// The nose points along the horizontal line of sight, and the rate is that of the bearing.
+        #[test]
+        fn agree_facing_with_differences_of_the_bearing(
+            mine in prop::array::uniform6(-3.0..3.0_f64),
+            mut other in prop::array::uniform6(-3.0..3.0_f64),
+        ) {
+            // Two metres of distance at least in x.
+            other[0] += if other[0] < mine[0] { -2.0 } else { 2.0 };
+            let (facing, lines) = (facing(), [mine, other]);
+            let at = |time_s| {
+                let scene = scene(&lines, time_s);
+                facing.reference(&moment(&scene)).flat
+            };
+            let flat = at(0.0);
+            let d = Vector3::new(other[0] - mine[0], other[1] - mine[1], 0.0);
+            let nose = Vector3::new(flat.yaw.cos(), flat.yaw.sin(), 0.0);
+            prop_assert!((nose - d.normalize()).norm() < 1e-14);
+            let h = 1e-5;
+            let turn = at(h).yaw - at(-h).yaw;
+            // The bearing may jump by a turn.
+            let turn = turn - (turn / std::f64::consts::TAU).round() * std::f64::consts::TAU;
+            // h²/6 times a third derivative of at most some (6/2)³ = 1e2, and rounding 1e-16 / h.
+            prop_assert!((flat.yaw_rate - turn / (2.0 * h)).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn exact_right_above_there_is_no_bearing() {
+        let scene = scene(
+            &[[1.0, 2.0, -5.0, 0.0, 0.0, 0.0], [1.0, 2.0, 0.0, 1.0, 0.0, 0.0]],
+            0.0,
+        );
+        let flat = facing().reference(&moment(&scene)).flat;
+        assert_eq!((flat.yaw, flat.yaw_rate), (0.7, 0.0));
+    }
+
+    #[test]
+    fn exact_following_keeps_the_offset_and_the_velocity() {
+        let mut follow = Follow::agent("other", [-1.0, 0.5, 0.0], 0.3);
+        follow.leader = Some(AgentId(1));
+        let scene = scene(&[[0.0; 6], [1.0, 2.0, -3.0, 0.4, 0.5, 0.6]], 2.0);
+        let flat = follow.reference(&moment(&scene)).flat;
+        assert_eq!(flat.position, scene[1].position + Vector3::new(-1.0, 0.5, 0.0));
+        assert_eq!((flat.velocity, flat.yaw), (Vector3::new(0.4, 0.5, 0.6), 0.3));
+    }
+}

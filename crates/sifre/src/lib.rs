@@ -1,4 +1,77 @@
-//! The simulation engine.
+//! The simulation engine: agents on one exact clock, recorded, stopped, saved and resumed.
+//!
+//! ```
+//! use quad_dynamics::{Level, Vehicle};
+//! use quad_ndi::{AnyController, C3, Reference, Settings};
+//! use sifre::black_box::MemoryBox;
+//! use sifre::quadrotor::{Setup, Start};
+//! use sifre::{Follow, Member, Quadrotor, Simulation, steps};
+//! use std::sync::Arc;
+//!
+//! let vehicle = Arc::new(Vehicle::qball_x4());
+//! let c3 = AnyController::C3(C3::new(&vehicle, &Settings::default())?.into());
+//!
+//! // Alpha climbs a metre at level 3; bravo, at level 5, keeps two metres west of it. z points down.
+//! let climb = Reference::hold([0.0, 0.0, -1.0].into(), 0.0);
+//! let alpha = Setup::new("alpha", &vehicle, Level::Three, c3.clone(), climb);
+//! let follow = Follow::agent("alpha", [0.0, -2.0, 0.0], 0.0);
+//! let start = Start { position_m: [0.0, -2.0, 0.0], yaw_rad: 0.0 };
+//! let bravo = Setup { start, ..Setup::new("bravo", &vehicle, Level::Five, c3, follow) };
+//!
+//! let mut simulation = Simulation::new(vec![
+//!     Member::new(Quadrotor::new(alpha)?, steps::QUADROTOR.step),
+//!     Member::new(Quadrotor::new(bravo)?, steps::QUADROTOR.step),
+//! ])?;
+//! let id = simulation.attach(steps::BLACK_BOX.step, MemoryBox::default())?;
+//! let report = simulation.run(5.0, &mut ())?;
+//! assert!(report.status.is_completed());
+//!
+//! let recording = simulation.detach::<MemoryBox>(id).expect("attached above")?.recording;
+//! let z = recording.column("alpha.position.z").expect("every quadrotor has it").last();
+//! assert!((z.unwrap_or(0.0) + 1.0).abs() < 1e-3);
+//!
+//! // At rest it is a JSON file, and goes on from there bit for bit.
+//! let mut file = Vec::new();
+//! simulation.save()?.write_json(&mut file)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Parts
+//!
+//! | of appendix A | here | standard implementations |
+//! | --- | --- | --- |
+//! | simulation | [`Simulation`] | |
+//! | black box | [`BlackBox`] | [`CsvBox`](black_box::CsvBox), [`JsonLinesBox`](black_box::JsonLinesBox), `ParquetBox`, [`MemoryBox`](black_box::MemoryBox) |
+//! | agent | [`Agent`] | [`Quadrotor`], [`Ets`], [`Target`] |
+//! | quadrotor | [`Quadrotor`] | flown by a [`Pilot`](quadrotor::Pilot): any controller or [`OpenLoop`](quadrotor::OpenLoop); asked by [`Guidance`]: [`Mission`], [`Follow`], [`Facing`], a fixed reference |
+//! | energy transmission system | [`Ets`] | |
+//! | optimiser | [`Optimiser`] | [`RandomSearch`] |
+//!
+//! # Time
+//!
+//! Time is a whole number of nanoseconds; every agent and every black box has its own [`StepSize`], and they need not be
+//! multiples of each other. At an instant the agents due publish, decide, are recorded and move. Everyone sees what was
+//! published up to that instant and nothing else; between an agent's instants its publication is **held**. So the
+//! order of agents and the number of threads can't matter, and coupled agents converge at first order in their steps,
+//! as sampled controllers do; a single agent whose inputs don't depend on the step converges at its integrator's order.
+//! These are tests: `tests/engine/laws.rs`, `convergence.rs`.
+//!
+//! # Ends
+//!
+//! [`Simulation::run`] ends at its time, at a [`StopCondition`], where an agent's numbers stop being numbers, where the
+//! [`Observer`] asks for it (Ctrl-C), or where a black box fails: each is a [`RunStatus`] and loses nothing. The
+//! simulation can go on from there, or be saved ([`Simulation::save`]) and resumed elsewhere
+//! ([`Simulation::resume`]) as if nothing had been.
+//!
+//! # What it does not do
+//!
+//! It reads no scenario files and has no command line. Agents do not collide. A snapshot holds states, not how the agents
+//! were put together: resuming is given the same agents anew. The engine is `f64`; batches of other scalars call
+//! the physics' pure steps, which are what the agents call.
+//!
+//! # Features
+//!
+//! `parquet` (on by default): [`ParquetBox`](black_box), by way of the `parquet` crate without Arrow.
 
 mod agent;
 pub mod black_box;
@@ -34,3 +107,8 @@ pub use simulation::{
     RunReport, RunStatus, Scene, Simulation, SimulationSnapshot, StopCondition, Test, Who,
 };
 pub use target::{Path, Target};
+
+/// The example of the README, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -6,6 +6,7 @@ mod convergence;
 mod ets_agent;
 mod laws;
 mod levels;
+mod optimising;
 mod recording;
 mod scheduling;
 mod stopping;
