@@ -87,6 +87,34 @@ enum What {
     ThrustStand(Common),
     /// Transfer functions of thrust and torque from a step or pseudo-random sequence.
     RotorResponse(Common),
+    /// Prints an example of a file, its columns and units explained: `identify template pendulum > my.csv`.
+    Template {
+        /// Which identification's file.
+        kind: Kind,
+    },
+}
+
+/// The identifications, by the names of their commands.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Kind {
+    CentreOfMass,
+    Pendulum,
+    LoadCell,
+    ThrustStand,
+    RotorResponse,
+}
+
+impl Kind {
+    /// An example of the identification's file, from the virtual laboratory.
+    fn template(self) -> &'static str {
+        match self {
+            Self::CentreOfMass => include_str!("../template/centre-of-mass.csv"),
+            Self::Pendulum => include_str!("../template/pendulum.csv"),
+            Self::LoadCell => include_str!("../template/load-cell.csv"),
+            Self::ThrustStand => include_str!("../template/thrust-stand.csv"),
+            Self::RotorResponse => include_str!("../template/rotor-response.csv"),
+        }
+    }
 }
 
 fn main() -> ExitCode {
@@ -121,6 +149,10 @@ fn run(what: &What) -> Result<(), Box<dyn Error>> {
         What::LoadCell { common, capacity_n } => (common, load_cell(common, *capacity_n)?),
         What::ThrustStand(common) => (common, thrust_stand(common)?),
         What::RotorResponse(common) => (common, rotor_response(common)?),
+        What::Template { kind } => {
+            print!("{}", kind.template());
+            return Ok(());
+        }
     };
     if let (Some(vehicle), Some(out)) = (&common.vehicle, &common.out) {
         let text = output::updated(&input::text(vehicle)?, vehicle, &answer.found)?;

@@ -150,7 +150,7 @@ fn exact_a_load_cell_line_by_hand() {
     let output = Command::new(env!("CARGO_BIN_EXE_identify"))
         .arg("load-cell")
         .arg(file("loads.csv", text.as_bytes()))
-        .args(["--capacity-n", "20", "--json"])
+        .args(["--capacity-n", "16", "--json"])
         .output()
         .unwrap();
     let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -160,4 +160,48 @@ fn exact_a_load_cell_line_by_hand() {
         (number(0) - 1.0).abs() < 1e-12 && (number(1) - 0.5).abs() < 1e-12,
         "{answer}"
     );
+}
+
+/// The example of a command's file goes through the command.
+#[test]
+fn agree_every_template_is_identified() {
+    let nominal = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/vehicles/qball-x4.toml");
+    let swing = [
+        "--axis",
+        "yaw",
+        "--mass-kg",
+        "1.4",
+        "--half-spacing-m",
+        "0.2",
+        "--length-m",
+        "0.7",
+    ];
+    let program = || Command::new(env!("CARGO_BIN_EXE_identify"));
+    for (kind, more) in [
+        ("centre-of-mass", &[][..]),
+        ("pendulum", &swing[..]),
+        ("load-cell", &["--capacity-n", "16"]),
+        ("thrust-stand", &["--vehicle", nominal]),
+        ("rotor-response", &[]),
+    ] {
+        let template = program().args(["template", kind]).output().unwrap();
+        assert_eq!(template.status.code(), Some(0), "{kind}");
+        let data = file(&format!("template-{kind}.csv"), &template.stdout);
+        let output = program()
+            .arg(kind)
+            .arg(&data)
+            .args(more)
+            .arg("--json")
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{kind}: {said}");
+        let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let numbers = answer["numbers"].as_array().unwrap();
+        assert!(!numbers.is_empty(), "{kind}");
+        for number in numbers {
+            let error = number["standard_error"].as_f64().unwrap();
+            assert!(error.is_finite() && error > 0.0, "{kind}: {number}");
+        }
+    }
 }
