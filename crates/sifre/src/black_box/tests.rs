@@ -73,6 +73,27 @@ fn bytes(parquet: ParquetBox<Vec<u8>>) -> bytes::Bytes {
     parquet.into_inner().unwrap().into()
 }
 
+/// More rows than a row group holds: 8 MiB of a time and a number each.
+#[cfg(feature = "parquet")]
+#[test]
+fn exact_parquet_is_written_in_row_groups() {
+    use ::parquet::file::reader::{FileReader, SerializedFileReader};
+    let rows = 600_000_u32;
+    let mut parquet = ParquetBox::new(Vec::new());
+    parquet.begin(&channels(1)).unwrap();
+    for k in 0..rows {
+        parquet.record(u64::from(k), &[f64::from(k) / 3.0]).unwrap();
+    }
+    let file = bytes(parquet);
+    let groups = SerializedFileReader::new(file.clone()).unwrap().num_row_groups();
+    assert_eq!(groups, 2, "524288 rows and the rest");
+    let recording = Recording::from_parquet(file).unwrap();
+    assert_eq!(recording.len(), rows as usize);
+    let expected =
+        |(k, row): (u32, Row<'_>)| row.time_ns == u64::from(k) && row.values == [f64::from(k) / 3.0];
+    assert!((0..rows).zip(recording.rows()).all(expected));
+}
+
 #[test]
 fn exact_csv_is_what_the_documentation_shows() {
     let mut csv = CsvBox::new(Vec::new());

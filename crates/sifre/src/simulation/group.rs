@@ -34,6 +34,8 @@ pub(super) struct Slot {
 #[derive(Debug)]
 pub(super) struct Group {
     pub(super) step: StepSize,
+    /// The same, s.
+    pub(super) step_s: f64,
     /// Their next instant, ns; the present one until it is left.
     pub(super) next_ns: u64,
     pub(super) slots: Vec<Slot>,
@@ -79,7 +81,7 @@ impl Group {
             time_s: seconds(self.next_ns),
             time_ns: self.next_ns,
             step: self.step,
-            step_s: self.step.seconds(),
+            step_s: self.step_s,
             me: AgentId(0),
             scene,
         }

@@ -106,6 +106,7 @@ impl Simulation {
             None => {
                 self.groups.push(Group {
                     step,
+                    step_s: step.seconds(),
                     next_ns: 0,
                     slots: Vec::new(),
                 });
