@@ -1,0 +1,1 @@
+//! Animations of recorded simulations as one self-contained HTML file.

@@ -1,0 +1,1 @@
+//! State estimation with poor sensors on any level's model.

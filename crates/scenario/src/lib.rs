@@ -1,0 +1,1 @@
+//! Scenario files: what flies, where, how, for how long, as TOML.

@@ -1,0 +1,1 @@
+//! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
