@@ -27,3 +27,4 @@ pub use outcome::{Failure, Histories, History, Outcome};
 pub use path::Path;
 pub use problem::{Gradient, LANES, Problem};
 pub use surface::{Grid, Minimum, Objective, Surface};
+pub mod optimisers;
