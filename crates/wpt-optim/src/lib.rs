@@ -1,6 +1,5 @@
 //! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
 
-pub mod selection;
 mod condition;
 mod cost;
 mod decision;
@@ -14,6 +13,7 @@ mod outcome;
 mod path;
 mod problem;
 mod rollout;
+pub mod selection;
 mod surface;
 
 pub use condition::{Axis, Condition, Order, Side, UnknownCondition};
