@@ -2,7 +2,7 @@
 
 use crate::model::StateOf;
 use crate::{
-    BuildError, Flight, Input, Level, Level1, Level2, Level3, Level4, Level5, PhenomenonSet, QuadrotorModel,
+    BuildError, Flight, Input, Kick, Level, Level1, Level2, Level3, Level4, Level5, PhenomenonSet, QuadrotorModel,
     Snapshot, Vehicle,
 };
 use nalgebra::Vector3;
@@ -144,6 +144,11 @@ impl<R: Real> AnyQuadrotor<R> {
     #[inline]
     pub fn step(&mut self, method: FixedStep, input: &Input<R>, h: R) {
         each_level!(self, q => q.state = method.step(&q.model, &q.state, input, h));
+    }
+
+    /// Changes velocity and body rates suddenly.
+    pub fn kick(&mut self, kick: &Kick<R>) {
+        each_level!(self, q => q.state = q.model.kicked(&q.state, kick));
     }
 
     /// What can be seen of the flight.

@@ -14,7 +14,7 @@
 use crate::model::RotorSnapshot;
 use crate::quadrotor::{CommandLimits, RotorSet};
 use crate::{
-    BuildError, Flight, Hover, Input, Level, ModelName, Phenomenon, PhenomenonSet, QuadrotorModel, RigidBody,
+    BuildError, Capabilities, Flight, Hover, Input, Kick, Level, ModelName, Phenomenon, PhenomenonSet, QuadrotorModel, RigidBody,
     RigidBodyState, Snapshot, Vehicle,
 };
 use nalgebra::Vector3;
@@ -106,21 +106,12 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
     const LEVEL: Option<Level> = Some(Level::One);
 
     fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError> {
-        for &phenomenon in &phenomena.0 {
-            if phenomenon != Phenomenon::InputLimits {
-                let (model, prerequisite) = (ModelName(Self::LEVEL), phenomenon.prerequisite());
-                return Err(BuildError::UnmetPrerequisite {
-                    model,
-                    phenomenon,
-                    prerequisite,
-                });
-            }
-        }
+        BuildError::check_phenomena(ModelName(Self::LEVEL), phenomena, Capabilities::of(Level::One))?;
         let limits = phenomena
             .contains(Phenomenon::InputLimits)
             .then(|| CommandLimits::of(vehicle));
         let parts = RotorSet::<f64, IdealRotor<f64>, ConstantVoltage<f64>>::linear(vehicle, None);
-        let hover = parts.hover_commands(vehicle, ModelName(Self::LEVEL), limits.is_some())?;
+        let hover = parts.hover_commands(vehicle, ModelName(Self::LEVEL), limits.is_some(), vehicle.weight())?;
         Ok(Self {
             body: RigidBody::of(vehicle),
             rotor_set: RotorSet::<R, IdealRotor<R>, ConstantVoltage<R>>::linear(vehicle, limits),
@@ -167,6 +158,16 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
             velocity: body.attitude.rotate(&body.velocity),
             attitude,
             attitude_rates: attitude.rates(&body.body_rates),
+        }
+    }
+
+    fn kicked(&self, state: &LinearState<R>, kick: &Kick<R>) -> LinearState<R> {
+        LinearState {
+            velocity: state.velocity + kick.velocity,
+            attitude_rates: state
+                .attitude_rates
+                .add_scaled(R::one(), &state.attitude.rates(&kick.body_rates)),
+            ..*state
         }
     }
 
