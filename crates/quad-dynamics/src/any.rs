@@ -165,6 +165,11 @@ impl<R: Real> AnyQuadrotor<R> {
         each_level!(self, q => look(&q.model.flight(&q.state)))
     }
 
+    /// Specific force at the centre of mass, along B, m/s²: what an ideal accelerometer there reads under this input.
+    pub fn specific_force(&self, input: &Input<R>) -> Vector3<R> {
+        each_level!(self, q => q.model.specific_force(&q.state, input))
+    }
+
     /// The flight in terms that every level understands.
     pub fn snapshot(&self, input: &Input<R>) -> Snapshot<R> {
         each_level!(self, q => q.model.snapshot(&q.state, input))

@@ -75,6 +75,16 @@ impl<R: Real> Level1<R> {
     }
 }
 
+impl<R: Real> Level1<R> {
+    /// Specific force at the centre of mass, `f = R_BW (v̇_W − g e_z)` along B, m/s², with the level's own acceleration:
+    /// what an ideal accelerometer there reads, `[0, 0, −g]` in hover. To first order in the tilt it lies along z_B.
+    pub fn specific_force(&self, state: &LinearState<R>, input: &Input<R>) -> Vector3<R> {
+        let mut felt = self.derivative(state, input).velocity;
+        felt.z -= self.body.gravity;
+        state.attitude.rotation().matrix.transpose() * felt
+    }
+}
+
 impl<R: Real> System<R> for Level1<R> {
     type State = LinearState<R>;
     type Input = Input<R>;

@@ -201,6 +201,17 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> Quadrotor<R, M, S> {
         acting
     }
 
+    /// Specific force at the centre of mass, `f = F/m` along B with F everything but gravity, m/s²: what an ideal
+    /// accelerometer there reads, `[0, 0, −g]` in hover.
+    pub fn specific_force(
+        &self,
+        state: &QuadrotorState<R, M::State, S::State>,
+        input: &Input<R>,
+    ) -> Vector3<R> {
+        let (_, inputs) = self.rotor_set.rotor_inputs(&state.rotors, &state.supply, input);
+        self.wrench(state, &inputs, &input.wind).force / self.body.mass
+    }
+
     /// Gyroscopic torque and spin-up reaction `−Σ s_i I_R Ω̇_i e_z`, N m along B.
     #[inline(always)]
     fn spin_moment(
