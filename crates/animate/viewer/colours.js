@@ -6,7 +6,7 @@ const SKY_BLUE = '#56b4e9';
 const BEAM = '#12a812';
 const SKY = '#eef3f8';
 const GROUND = '#e4e6e1';
-const GRID = '#c3c8c2';
+const GRID = '#b9bfb8';
 
 /** The colour of a level from 1 to 5; ink where it is not known. */
 function levelColour(level) {

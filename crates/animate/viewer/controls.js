@@ -77,10 +77,10 @@ function followAddress(viewer) {
     const asked = readAddress();
     const number = (key) => (asked.has(key) && asked.get(key) !== '' ? Number(asked.get(key)) : NaN);
     document.body.classList.toggle('still', asked.has('still'));
-    viewer.resize();
     if (Number.isFinite(number('t'))) viewer.setTime(number('t'));
+    viewer.orbitTo(...['az', 'el', 'zoom'].map(number));
+    const station = asked.get('station') || viewer.firstStation();
+    viewer.look(asked.get('view') === 'ets' ? station : '');
+    viewer.showInset(station);
     viewer.followAgent(asked.get('follow') || '');
-    const place = ['az', 'el', 'zoom'].map(number);
-    if (place.some(Number.isFinite)) viewer.orbitTo(...place);
-    if (asked.get('view') === 'ets') viewer.look(asked.get('station') || viewer.firstStation());
 }

@@ -80,7 +80,7 @@ function bearingTape(context, box, station, scale, large) {
 
 /** The scale along the right edge: inclination of the camera above the horizon. */
 function inclinationTape(context, box, station, scale, large) {
-    const width = large ? 48 : 32;
+    const width = large ? 52 : 44;
     const top = box.y + (large ? 34 : 22);
     const tilt = station.tilt / DEGREE;
     const middle = axisPoint(box, station.agent.lens).y;
@@ -165,7 +165,11 @@ function caption(context, box, station, large) {
     const words = [`${station.name}: bearing ${bearing.toFixed(1)}°, inclination ${signed(station.tilt / DEGREE, 1)}°`];
     if (station.mode !== null) words.push(MODES[station.mode] || '');
     if (large && station.range !== null) words.push(`range ${station.range.toFixed(2)} m`);
-    const text = words.join(' · ');
+    let text = words.join(' · ');
+    while (words.length > 1 && context.measureText(text).width + 14 > box.w) {
+        words.pop();
+        text = words.join(' · ');
+    }
     const width = context.measureText(text).width + 14;
     const height = large ? 24 : 17;
     const x = large ? box.x + (box.w - width) / 2 : box.x;
@@ -175,6 +179,28 @@ function caption(context, box, station, large) {
     context.textAlign = 'left';
     context.textBaseline = 'middle';
     context.fillText(text, x + 7, box.y + box.h - height / 2 + 0.5);
+}
+
+/** The axes of W as the overview is turned, in its lower left corner; the grid's width beside them. */
+function drawTriad(context, box, camera) {
+    const [x, y, length] = [box.x + 52, box.y + box.h - 46, 30];
+    const turn = camera.quaternion.clone().invert();
+    context.save();
+    context.font = '12.5px system-ui, sans-serif';
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    context.lineWidth = 2;
+    context.strokeStyle = context.fillStyle = INK;
+    [['N', 1, 0, 0], ['E', 0, 1, 0], ['D', 0, 0, 1]].forEach(([name, ...axis]) => {
+        const seen = toThree(new THREE.Vector3(...axis)).applyQuaternion(turn);
+        tick(context, x, y, x + length * seen.x, y - length * seen.y);
+        const reach = length + 11 / Math.max(0.35, Math.hypot(seen.x, seen.y));
+        context.fillText(name, x + reach * seen.x, y - reach * seen.y);
+    });
+    context.textAlign = 'left';
+    context.fillStyle = '#4a4a4a';
+    context.fillText('grid 1 m', x + 52, y + 28);
+    context.restore();
 }
 
 function tick(context, x0, y0, x1, y1) {

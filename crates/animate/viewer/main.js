@@ -13,9 +13,10 @@ class Viewer {
         for (const agent of order) this.stage.byName.set(agent.name, new kinds[agent.kind](agent, this.stage));
         this.agents = [...this.stage.byName.values()];
         this.inset = this.firstStation();
-        this.labels = new Labels(document.getElementById('labels'), [...this.agents, ...this.stage.axes]);
+        this.labels = new Labels(document.getElementById('labels'), this.agents);
         this.plots = new Plots(document.getElementById('plots'), data, (t) => this.setTime(t));
         this.controls = new Controls(this);
+        this.stage.inset.addEventListener('click', () => this.look(this.view ? '' : this.inset));
         this.stage.controls.addEventListener('change', () => this.redraw());
         window.addEventListener('resize', () => this.redraw());
         window.addEventListener('hashchange', () => followAddress(this));
@@ -66,6 +67,12 @@ class Viewer {
         this.redraw();
     }
 
+    /** The station whose view is the small picture. */
+    showInset(station) {
+        if (this.stage.byName.get(station)?.kind === 'ets') this.inset = station;
+        this.redraw();
+    }
+
     nextView() {
         const stations = this.agents.filter((agent) => agent.kind === 'ets').map((agent) => agent.name);
         const views = ['', ...stations];
@@ -85,10 +92,6 @@ class Viewer {
         this.redraw();
     }
 
-    resize() {
-        this.redraw();
-    }
-
     /** One picture per frame of the screen, however often something changes. */
     redraw() {
         if (this.waiting) return;
@@ -104,9 +107,8 @@ class Viewer {
         for (const agent of this.agents) agent.moveTo(at, this.time, this.stage);
         const followed = this.stage.byName.get(this.followed);
         if (followed) {
-            const from = this.carriedFrom || new THREE.Vector3(...this.data.middle);
+            this.stage.carry(this.carriedFrom, followed.position);
             this.carriedFrom = followed.position.clone();
-            this.stage.carry(from, followed.position);
         }
         const station = this.stage.byName.get(this.view || this.inset);
         this.stage.draw(this.agents, station, Boolean(this.view), this.labels);
@@ -118,7 +120,7 @@ class Viewer {
     whereOnScreen(name) {
         const agent = this.stage.byName.get(name);
         const station = this.stage.byName.get(this.view);
-        const box = station ? this.stage.boxes(station, true).lens : this.stage.boxes(null).overview;
+        const box = this.stage.box(station);
         const p = projected(toThree(agent.position), station ? station.camera : this.stage.eye, box);
         const corner = this.stage.element.getBoundingClientRect();
         return p && { x: p.x + corner.left, y: p.y + corner.top };

@@ -6,6 +6,7 @@ class Plots {
     constructor(canvas, data, seek) {
         Object.assign(this, { canvas, data });
         this.context = canvas.getContext('2d');
+        this.byName = new Map(data.agents.map((agent) => [agent.name, agent]));
         this.stations = data.agents.filter((agent) => agent.kind === 'ets');
         const root = (agent) => agent.spotRight && agent.spotRight.map((right, k) => {
             const up = agent.spotUp[k];
@@ -17,7 +18,6 @@ class Plots {
             this.panel('Incidence α, °', (s) => degrees(s.incidence), (limits) => limits.incidence / DEGREE),
             this.panel('Spot offset |eₛ|, mm', root, (limits) => 1e3 * limits.spot),
         ].filter((panel) => panel.curves.length > 0);
-        this.byName = new Map(data.agents.map((agent) => [agent.name, agent]));
         const move = (event) => {
             if (event.buttons !== 1) return;
             const { left, right } = this.frame(0);
@@ -47,9 +47,9 @@ class Plots {
     frame(index) {
         const { clientWidth: w, clientHeight: h } = this.canvas;
         const legend = 18 * this.stations.length + 8;
-        const each = (h - legend - 34) / Math.max(1, this.panels.length);
+        const each = (h - legend - 38) / Math.max(1, this.panels.length);
         const top = legend + index * each;
-        return { left: 46, right: w - 12, top: top + 20, bottom: top + each - 8, bottomOfAll: h - 34 };
+        return { left: 46, right: w - 12, top: top + 20, bottom: top + each - 6 };
     }
 
     draw(t) {
@@ -162,10 +162,10 @@ class Plots {
     }
 }
 
-/** Upper end of an axis: holds the limit and nearly all values; a short excursion leaves the picture. */
+/** Upper end of an axis: holds the limit and nine values in ten; an excursion, as in the search at first, leaves the picture. */
 function topOf(curves, limits) {
     const values = curves.flatMap((curve) => curve.values.filter((v) => v !== null)).sort((a, b) => a - b);
-    const most = values.length ? values[Math.floor(0.97 * (values.length - 1))] : 1;
+    const most = values.length ? values[Math.floor(0.9 * (values.length - 1))] : 1;
     const near = limits.filter((limit) => limit < 4 * most);
     return 1.12 * Math.max(most, ...near, 1e-6);
 }
