@@ -124,13 +124,14 @@ impl Agent {
         let position = || columns.pose(&of.name, kind, ["position.x", "position.y", "position.z"]);
         match &of.kind {
             Kind::Quadrotor { arm_m } => {
+                let position = position()?;
                 let angles = ["attitude.roll", "attitude.pitch", "attitude.yaw"];
                 let [roll, pitch, yaw] = columns.pose(&of.name, kind, angles)?;
                 let attitude = |k: usize| EulerAngles::new(roll[k], pitch[k], yaw[k]);
                 Ok(Self::Quadrotor {
                     name: of.name.clone(),
                     arm: positive(&format!("the arm of \"{}\", m,", of.name), *arm_m)?,
-                    p: interleaved(&position()?),
+                    p: interleaved(&position),
                     q: quaternions((0..yaw.len()).map(attitude)),
                     level: levels(columns, &of.name)?,
                     receivers: receivers_of(&of.name, scene),
@@ -325,7 +326,10 @@ fn rounded(column: &[f64]) -> Vec<f64> {
 
 /// Numbers that are none are gaps in a curve.
 fn gaps(column: Vec<f64>) -> Vec<Option<f64>> {
-    column.into_iter().map(|x| x.is_finite().then(|| round(x))).collect()
+    column
+        .into_iter()
+        .map(|x| x.is_finite().then(|| round(x)))
+        .collect()
 }
 
 /// The number, if it is a length that can be drawn.

@@ -18,7 +18,8 @@ impl Scene {
     /// place that does not agree with the recorded ranges.
     pub fn from_recording(recording: &Recording) -> Self {
         let names: Vec<&str> = recording.channels().iter().map(|c| c.name.as_str()).collect();
-        let of = |ending: &str| -> Vec<&str> { names.iter().filter_map(|n| n.strip_suffix(ending)).collect() };
+        let of =
+            |ending: &str| -> Vec<&str> { names.iter().filter_map(|n| n.strip_suffix(ending)).collect() };
         let (stations, flying, placed) = (of(".gimbal.pan"), of(".attitude.roll"), of(".position.x"));
         let mut scene = Self::new("Recorded flight");
         for name in &placed {
@@ -71,8 +72,9 @@ fn nearest<'a>(station: &str, candidates: &'a [String], recording: &Recording) -
         return candidates.first();
     };
     let miss = |name: &String| {
-        path(&format!("{name}.position"))
-            .map_or(f64::INFINITY, |p| p.iter().zip(&aim).map(|(a, b)| (a - b).norm()).sum())
+        path(&format!("{name}.position")).map_or(f64::INFINITY, |p| {
+            p.iter().zip(&aim).map(|(a, b)| (a - b).norm()).sum()
+        })
     };
     candidates.iter().min_by(|a, b| miss(a).total_cmp(&miss(b)))
 }

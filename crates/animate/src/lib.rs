@@ -8,7 +8,7 @@ mod page;
 mod scene;
 mod view;
 
-pub use browser::{Browser, BrowserError, CHROMIUM, Size, Visit};
+pub use browser::{Browser, BrowserError, CHROMIUM, Page, Size};
 pub use error::AnimateError;
 pub use page::html;
 pub use scene::{Kind, LEVEL_COLOURS, NOMINAL_ARM_M, Scene, SceneAgent};

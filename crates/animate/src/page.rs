@@ -11,6 +11,9 @@ const TEMPLATE: &str = include_str!("../viewer/page.html");
 const STYLE: &str = include_str!("../viewer/style.css");
 const THREE: &str = include_str!("../vendor/three.bundle.js");
 
+/// The licence of three.js asks to be in all copies.
+const LICENCE: &str = include_str!("../vendor/LICENSE-three");
+
 /// The viewer's parts; they share one scope.
 const VIEWER: [&str; 11] = [
     include_str!("../viewer/data.js"),
@@ -46,6 +49,7 @@ pub fn html(recording: &Recording, scene: &Scene, options: &Options) -> Result<S
         ("note", &note),
         ("style", STYLE),
         ("data", &embedded(&data)?),
+        ("licence", LICENCE),
         ("three", THREE),
         ("viewer", &VIEWER.concat()),
     ]))
@@ -91,10 +95,7 @@ fn filled(parts: &[(&str, &str)]) -> String {
     while let Some((before, after)) = rest.split_once("{{") {
         let (name, after) = after.split_once("}}").unwrap_or((after, ""));
         page += before;
-        page += parts
-            .iter()
-            .find(|part| part.0 == name)
-            .map_or("", |part| part.1);
+        page += parts.iter().find(|part| part.0 == name).map_or("", |part| part.1);
         rest = after;
     }
     page + rest
@@ -107,7 +108,9 @@ fn embedded(data: &Data) -> Result<String, AnimateError> {
 
 /// Text for HTML.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
 }
 
 #[cfg(test)]
@@ -116,13 +119,12 @@ mod tests {
 
     #[test]
     fn exact_each_place_of_the_template_is_filled_once() {
-        let names = ["title", "note", "style", "data", "three", "viewer"];
-        let marked: Vec<String> = names.iter().map(|name| format!("[{name}: {{{{title}}}}]")).collect();
-        let parts: Vec<(&str, &str)> = names
+        let names = ["title", "note", "style", "data", "licence", "three", "viewer"];
+        let marked: Vec<String> = names
             .iter()
-            .zip(&marked)
-            .map(|(n, m)| (*n, m.as_str()))
+            .map(|name| format!("[{name}: {{{{title}}}}]"))
             .collect();
+        let parts: Vec<(&str, &str)> = names.iter().zip(&marked).map(|(n, m)| (*n, m.as_str())).collect();
         let page = filled(&parts);
         for (name, mark) in names.iter().zip(&marked) {
             let times = if *name == "title" { 2 } else { 1 };
