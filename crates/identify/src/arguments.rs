@@ -94,8 +94,8 @@ pub(crate) struct Flown {
     /// Mass as flown, kg, instead of the vehicle file's.
     #[arg(long)]
     pub(crate) mass_kg: Option<f64>,
-    /// ULog only: the autopilot's numbers of the motors, in the order of the vehicle file's rotors.
-    #[arg(long, value_delimiter = ',', num_args = 4, default_values_t = [1, 2, 3, 4])]
+    /// ULog only: the autopilot's numbers of the motors, in the order of the vehicle file's rotors: four, with commas.
+    #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4])]
     pub(crate) motors: Vec<usize>,
 }
 

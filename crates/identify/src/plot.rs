@@ -82,6 +82,16 @@ pub(crate) fn curve(from: f64, to: f64, value: impl Fn(f64) -> f64) -> Vec<(f64,
     x.map(|x| (x, value(x))).collect()
 }
 
+/// Free space at each end of an axis, as a share of it: a marker at the end is not cut.
+const PADDING: f64 = 0.04;
+
+/// The same horizontal range, a little wider than the numbers, for panels that stand above each other.
+pub(crate) fn wide(panel: Panel, values: impl Iterator<Item = f64> + Clone) -> Panel {
+    let (from, to) = span(values);
+    let padding = PADDING * (to - from);
+    panel.x_range(from - padding, to + padding)
+}
+
 /// Smallest and largest of some numbers.
 pub(crate) fn span(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     (

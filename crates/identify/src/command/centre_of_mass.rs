@@ -6,7 +6,7 @@ use crate::input;
 use crate::output::Answer;
 use crate::plot;
 use quad_plot::style::Marker;
-use quad_plot::{Figure, Panel, series_style};
+use quad_plot::{Figure, Look, Panel, series_style};
 use sysid::centre_of_mass::{CentreOfMass, Placing, locate};
 
 const MILLI: f64 = 1e3;
@@ -44,8 +44,12 @@ fn figure(placings: &[Placing], fit: &CentreOfMass) -> Figure {
             let c = line.centre_of_pressure;
             let reach = line.direction * (1.3 * line.direction.dot(&(centre - c)));
             let ends = [c, c + reach].map(|p| (MILLI * p[axis], -MILLI * p.z));
-            let look = series_style(placing.orientation as usize);
-            panel = panel.line(label, look.dashed(""), ends);
+            let look = Look {
+                width: 0.9,
+                dash: "",
+                ..series_style(placing.orientation as usize)
+            };
+            panel = panel.line(label, look, ends);
         }
         let look = plot::FIT.marked(Marker::Diamond);
         panel.markers(

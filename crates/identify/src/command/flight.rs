@@ -7,7 +7,7 @@ use crate::output::Answer;
 use crate::{input, plot, ulog, vehicle};
 use quad_dynamics::Vehicle;
 use quad_plot::panel::BandPoint;
-use quad_plot::{Figure, Panel};
+use quad_plot::{Figure, Look, Panel};
 use std::error::Error;
 use std::ops::RangeInclusive;
 use sysid::flight::{Comparison, ThrustAndInertia, Window, identify_thrust_and_inertia};
@@ -61,8 +61,8 @@ fn log(
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("ulg"));
     let mut recorded = if is_ulog {
-        let motors =
-            <[usize; 4]>::try_from(flown.motors.as_slice()).map_err(|_| "--motors takes four numbers")?;
+        let motors = <[usize; 4]>::try_from(flown.motors.as_slice())
+            .map_err(|_| "--motors takes four numbers, as in 1,2,3,4")?;
         ulog::flight(&common.data, &motors, answer)?
     } else {
         let mut recorded = input::flight(&common.data, answer)?;
@@ -168,23 +168,33 @@ fn figure(
     let thrust = found.thrust.compare(window.log, &window.span)?;
     let roll = found.roll.compare(vehicle, window.log, &window.span)?;
     let pitch = found.pitch.compare(vehicle, window.log, &window.span)?;
-    let mut figure = plot::figure(1);
-    for (comparison, label) in [
-        (&thrust, "Total thrust, N"),
-        (&roll, "Roll *ṗ*, rad s^{−2}"),
-        (&pitch, "Pitch *q̇*, rad s^{−2}"),
+    let mut figure = plot::figure(2);
+    for (comparison, name, symbol) in [
+        (&thrust, "Total thrust Σ*T*, N", "Σ*T*, N"),
+        (&roll, "Roll *ṗ*, rad s^{−2}", "*ṗ*, rad s^{−2}"),
+        (&pitch, "Pitch *q̇*, rad s^{−2}", "*q̇*, rad s^{−2}"),
     ] {
-        figure = figure.panel(compared(comparison, label)).panel(plot::residuals(
-            Panel::new("Time *t*, s", format!("Residual: {label}")),
+        let left = Panel::new("Time *t*, s", format!("Residual of {symbol}")).line(
+            "",
+            THIN,
             shown(comparison, &residual(comparison)),
-        ));
+        );
+        figure = figure
+            .panel(compared(comparison, name))
+            .panel(left.horizontal(0.0, ""));
     }
     Ok(figure.panel(curve(found, window)))
 }
 
+/// Look of measured series.
+const THIN: Look = Look {
+    width: 1.2,
+    ..plot::DATA
+};
+
 fn compared(comparison: &Comparison, label: &str) -> Panel {
     Panel::new("Time *t*, s", label)
-        .line("measured", plot::DATA, shown(comparison, &comparison.measured))
+        .line("measured", THIN, shown(comparison, &comparison.measured))
         .line(
             "fit",
             plot::FIT.dashed("4 2"),

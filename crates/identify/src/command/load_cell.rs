@@ -33,11 +33,11 @@ pub(super) fn identify(common: &Common, capacity: Capacity, answer: &mut Answer)
         .zip(&calibration.line.residuals)
         .map(|(s, r)| (s.load, MILLI * r))
         .collect();
+    let panel = |label: &str, y: &str| plot::wide(Panel::new(label, y), samples.iter().map(|s| s.load));
     answer.figure = Some(
         plot::figure(1)
-            .share_x()
-            .panel(plot::measured(Panel::new(label, "Reading *y*, V"), points).line("line", plot::FIT, line))
-            .panel(plot::residuals(Panel::new(label, "Residual, mV"), residuals)),
+            .panel(plot::measured(panel(label, "Reading *y*, V"), points).line("line", plot::FIT, line))
+            .panel(plot::residuals(panel(label, "Residual, mV"), residuals)),
     );
     Ok(())
 }

@@ -19,8 +19,27 @@ struct Shown {
     quantity: Quantity,
     coefficient: &'static str,
     cubic: [(&'static str, &'static str); 3],
+    /// Labels of the axis and of residuals.
     axis: &'static str,
+    residual: &'static str,
 }
+
+impl Shown {
+    /// What is drawn of a sample.
+    fn drawn(&self, sample: &StaticSample) -> f64 {
+        self.axis_scale() * sample.of(self.quantity)
+    }
+
+    /// Thrust in N, torque in mN m.
+    fn axis_scale(&self) -> f64 {
+        match self.quantity {
+            Quantity::Thrust => 1.0,
+            Quantity::Torque => MILLI,
+        }
+    }
+}
+
+const MILLI: f64 = 1e3;
 
 const THRUST: Shown = Shown {
     quantity: Quantity::Thrust,
@@ -31,6 +50,7 @@ const THRUST: Shown = Shown {
         ("polynomial_rotor.thrust_k3_n_per_v3", "N/V³"),
     ],
     axis: "Thrust *T*, N",
+    residual: "Residual of *T*, mN",
 };
 const TORQUE: Shown = Shown {
     quantity: Quantity::Torque,
@@ -40,7 +60,8 @@ const TORQUE: Shown = Shown {
         ("polynomial_rotor.torque_k2_n_m_per_v2", "N m/V²"),
         ("polynomial_rotor.torque_k3_n_m_per_v3", "N m/V³"),
     ],
-    axis: "Torque *Q*, N m",
+    axis: "Torque *Q*, mN m",
+    residual: "Residual of *Q*, mN m",
 };
 
 pub(super) fn identify(common: &Common, range: LineRange, answer: &mut Answer) -> Done {
@@ -143,57 +164,71 @@ fn voltage(samples: &[StaticSample], file: &VehicleFile) -> Option<f64> {
 }
 
 fn over_speed(shown: &Shown, samples: &[StaticSample], fitted: impl Fn(f64) -> f64) -> Panel {
-    let points = samples.iter().map(|s| (s.speed_rad_s, s.of(shown.quantity)));
-    let (_, fastest) = plot::span(samples.iter().map(|s| s.speed_rad_s));
+    let speeds = samples.iter().map(|s| s.speed_rad_s);
+    let (_, fastest) = plot::span(speeds.clone());
+    let points = speeds.zip(samples.iter().map(|s| shown.drawn(s)));
     plot::measured(
         Panel::new("Rotor speed *Ω*, rad s^{−1}", shown.axis),
-        points.collect(),
+        points.clone().collect(),
     )
     .line(
         "constant coefficient",
         plot::FIT,
-        plot::curve(0.0, fastest, fitted),
+        plot::curve(0.0, fastest, |speed| shown.axis_scale() * fitted(speed)),
     )
+    .x_range(0.0, BEYOND * fastest)
 }
+
+/// How far an axis goes beyond the last point, which would be cut at its end.
+const BEYOND: f64 = 1.03;
 
 const EFFECTIVE: &str = "*x* = (*ū* − *ū*_{min}) *V*_{b}, V";
 
 fn over_effective(shown: &Shown, samples: &[StaticSample], minimum: f64, fit: &Fit<3>) -> Panel {
     let x = |s: &StaticSample| s.effective(minimum);
-    let points = samples.iter().map(|s| (x(s), s.of(shown.quantity)));
+    let points = samples.iter().map(|s| (x(s), shown.drawn(s)));
     let (_, end) = plot::span(samples.iter().map(x));
     let [k1, k2, k3] = fit.values();
-    plot::measured(Panel::new(EFFECTIVE, shown.axis), points.collect()).line(
-        "cubic",
-        plot::FIT,
-        plot::curve(0.0, end, |x| ((k3 * x + k2) * x + k1) * x),
-    )
+    let cubic = |x: f64| shown.axis_scale() * ((k3 * x + k2) * x + k1) * x;
+    plot::measured(Panel::new(EFFECTIVE, shown.axis), points.collect())
+        .line("cubic", plot::FIT, plot::curve(0.0, end, cubic))
+        .x_range(0.0, BEYOND * end)
 }
 
 fn left_over(shown: &Shown, samples: &[StaticSample], minimum: f64, fit: &Fit<3>) -> Panel {
     let points = samples.iter().zip(&fit.residuals);
+    let (_, end) = plot::span(samples.iter().map(|s| s.effective(minimum)));
+    let points = points.map(|(s, r)| (s.effective(minimum), MILLI * r)).collect();
     plot::residuals(
-        Panel::new(EFFECTIVE, format!("Residual of the cubic: {}", shown.axis)),
-        points.map(|(s, r)| (s.effective(minimum), *r)).collect(),
+        Panel::new(EFFECTIVE, shown.residual)
+            .caption("of the cubic")
+            .x_range(0.0, BEYOND * end),
+        points,
     )
 }
 
-/// The line of the linear rotor over its range, thrust and torque.
+/// The line of the linear rotor over its range, thrust and torque, and what it leaves.
 fn lines(figure: Figure, chosen: &[StaticSample], gains: &LinearGains) -> Figure {
-    let (_, end) = plot::span(chosen.iter().map(|s| s.duty));
     let zero = gains.zero_thrust.value;
-    [
-        (&THRUST, gains.thrust_gain.value),
-        (&TORQUE, gains.torque_gain.value),
-    ]
-    .into_iter()
-    .fold(figure, |figure, (shown, gain)| {
-        let points = chosen.iter().map(|s| (s.duty, s.of(shown.quantity)));
+    let (_, end) = plot::span(chosen.iter().map(|s| s.duty));
+    let wide = |panel: Panel| plot::wide(panel, chosen.iter().map(|s| s.duty).chain([zero]));
+    let both = [
+        (&THRUST, gains.thrust_gain.value, &gains.thrust.residuals),
+        (&TORQUE, gains.torque_gain.value, &gains.torque.residuals),
+    ];
+    let figure = both.into_iter().fold(figure, |figure, (shown, gain, _)| {
+        let points = chosen.iter().map(|s| (s.duty, shown.drawn(s)));
+        let line = |duty: f64| shown.axis_scale() * gain * (duty - zero);
         let panel = plot::measured(Panel::new("Duty *ū*", shown.axis), points.collect());
-        figure.panel(panel.line(
-            "line",
+        figure.panel(wide(panel.line(
+            "line of the linear rotor",
             plot::FIT,
-            plot::curve(zero, end, |duty| gain * (duty - zero)),
-        ))
+            plot::curve(zero, end, line),
+        )))
+    });
+    both.into_iter().fold(figure, |figure, (shown, _, residuals)| {
+        let points = chosen.iter().zip(residuals).map(|(s, r)| (s.duty, MILLI * r));
+        let panel = Panel::new("Duty *ū*", shown.residual).caption("of the line");
+        figure.panel(wide(plot::residuals(panel, points.collect())))
     })
 }
