@@ -28,8 +28,9 @@ use crate::event::AgentEvent;
 use crate::exact::{Exact, exact, plain};
 use air::Air;
 use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, PhenomenonSet, Snapshot, Vehicle};
-use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, Phenomenon, PhenomenonSet, Vehicle};
+use quad_dynamics::{
+    AnyQuadrotor, BuildError, Flight, Input, Level, Phenomenon, PhenomenonSet, Snapshot, Vehicle,
+};
 use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
 use rule::Side;
@@ -155,8 +156,14 @@ impl Quadrotor {
         check_pairing(self.setup.pilot.level(), choice.level)
             .map_err(|error| QuadrotorError::controller(name(), error))?;
         let phenomena = self.setup.script.phenomena(choice);
-        let next = model(&self.setup.vehicle, choice.level, &phenomena, Vector3::zeros(), 0.0)
-            .map_err(|error| QuadrotorError::build(name(), error))?;
+        let next = model(
+            &self.setup.vehicle,
+            choice.level,
+            &phenomena,
+            Vector3::zeros(),
+            0.0,
+        )
+        .map_err(|error| QuadrotorError::build(name(), error))?;
         Ok(self.go_on_as(next))
     }
 
