@@ -7,8 +7,9 @@ use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::{
-    Airframe, BatteryParameters, DragParameters, ArmParameters, Environment, LinearRotorParameters, MotorParameters,
-    PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters, RotorMount, Spin,
+    Airframe, ArmParameters, BatteryParameters, DragParameters, Environment, LinearRotorParameters,
+    MotorParameters, PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters,
+    RotorMount, Spin,
 };
 use quad_kinematics::Quaternion;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};

@@ -2,8 +2,8 @@
 
 use crate::model::StateOf;
 use crate::{
-    BuildError, Flight, Input, Kick, Level, Level1, Level2, Level3, Level4, Level5, PhenomenonSet, QuadrotorModel,
-    Snapshot, Vehicle,
+    BuildError, Flight, Input, Kick, Level, Level1, Level2, Level3, Level4, Level5, PhenomenonSet,
+    QuadrotorModel, Snapshot, Vehicle,
 };
 use nalgebra::Vector3;
 use quad_math::{FixedStep, Flat, Real};

@@ -88,7 +88,9 @@ pub enum AttributionError<E> {
         lacks: Vec<Feature>,
     },
     /// More parts than can be measured in all combinations.
-    #[error("{found} parts have 2^{found} combinations: attribute to {MOST_PARTS} at most, by models that are closer together")]
+    #[error(
+        "{found} parts have 2^{found} combinations: attribute to {MOST_PARTS} at most, by models that are closer together"
+    )]
     TooManyParts {
         /// How many there are.
         found: usize,
@@ -150,7 +152,8 @@ impl Parts {
     /// The model with the parts of a set, bit i for part i: parts whose prerequisites are missing are left out.
     pub fn model(&self, set: usize) -> (Level, PhenomenonSet) {
         let chosen = self.parts.iter().enumerate().filter(|(i, _)| set >> i & 1 == 1);
-        let mut features: BTreeSet<Feature> = self.base.iter().copied().chain(chosen.map(|(_, f)| *f)).collect();
+        let mut features: BTreeSet<Feature> =
+            self.base.iter().copied().chain(chosen.map(|(_, f)| *f)).collect();
         if features.contains(&Feature::NonLinearRotor) {
             features.insert(Feature::VoltageDependence);
         }
@@ -182,7 +185,11 @@ impl Parts {
                     let value = measure(model.0, &model.1).map_err(AttributionError::Run)?;
                     if !value.is_finite() {
                         let (level, phenomena) = model;
-                        return Err(AttributionError::NotFinite { level, phenomena, value });
+                        return Err(AttributionError::NotFinite {
+                            level,
+                            phenomena,
+                            value,
+                        });
                     }
                     known.push((model, value));
                     value
@@ -350,7 +357,10 @@ mod tests {
             parts.model(limits | sag),
             (Level::Four, Level::Four.phenomena().with(Phenomenon::InputLimits))
         );
-        assert_eq!(parts.model(sag | limits | rotor), (Level::Five, Level::Five.phenomena()));
+        assert_eq!(
+            parts.model(sag | limits | rotor),
+            (Level::Five, Level::Five.phenomena())
+        );
         let vehicle = crate::Vehicle::qball_x4();
         let mut runs = 0;
         for set in 0..1 << parts.parts().len() {
@@ -371,12 +381,19 @@ mod tests {
     fn exact_wrong_questions_are_errors() {
         let of = |level: Level, on: &PhenomenonSet| Resolution::of(level, on);
         let drag = PhenomenonSet::none().with(Phenomenon::Drag);
-        let error = Parts::between::<Infallible>(&of(Level::Two, &drag), &of(Level::Three, &PhenomenonSet::none()));
+        let error =
+            Parts::between::<Infallible>(&of(Level::Two, &drag), &of(Level::Three, &PhenomenonSet::none()));
         let text = error.unwrap_err().to_string();
         assert!(text.contains("has no drag"), "{text}");
         let parts = Parts::between_levels(Level::Three, Level::Four);
         let error = parts.attribute(|_, _| Ok::<_, Infallible>(f64::NAN)).unwrap_err();
-        assert!(matches!(error, AttributionError::NotFinite { level: Level::Three, .. }));
+        assert!(matches!(
+            error,
+            AttributionError::NotFinite {
+                level: Level::Three,
+                ..
+            }
+        ));
         let error = parts.attribute(|_, _| Err::<f64, _>("no")).unwrap_err();
         assert_eq!(error, AttributionError::Run("no"));
     }

@@ -111,7 +111,11 @@ mod tests {
         let share = 1.2 * contraction * contraction * 0.02 / (4.0 * std::f64::consts::PI * 0.127);
         assert_relative_eq!(share, 0.022_74, epsilon = 5e-5);
         for thrust in [0.1, 3.4335, 8.0] {
-            assert_relative_eq!(qball().download(thrust, 0.0), share * thrust, max_relative = 1e-12);
+            assert_relative_eq!(
+                qball().download(thrust, 0.0),
+                share * thrust,
+                max_relative = 1e-12
+            );
         }
         // No slipstream, no download that the airframe's drag doesn't have.
         assert_relative_eq!(qball().download(0.0, 3.0), 0.0, epsilon = 1e-6);
@@ -146,6 +150,9 @@ mod tests {
         let mut vehicle = Vehicle::qball_x4();
         vehicle.arms = None;
         let message = Blockage::<f64>::of(&vehicle).unwrap_err().to_string();
-        assert!(message.contains("[arms]") && message.contains("blockage"), "{message}");
+        assert!(
+            message.contains("[arms]") && message.contains("blockage"),
+            "{message}"
+        );
     }
 }

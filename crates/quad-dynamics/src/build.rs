@@ -5,8 +5,8 @@ mod rotors;
 use crate::quadrotor::{CommandLimits, CurrentDraw, Quadrotor, RotorSet, SpinningRotors};
 use crate::vehicle::Vehicle;
 use crate::{
-    Blockage, BuildError, Capabilities, Drag, GroundEffect, Input, Level, ModelName, Phenomenon, PhenomenonSet,
-    QuadrotorState, RigidBody, RigidBodyState, RotorGeometry,
+    Blockage, BuildError, Capabilities, Drag, GroundEffect, Input, Level, ModelName, Phenomenon,
+    PhenomenonSet, QuadrotorState, RigidBody, RigidBodyState, RotorGeometry,
 };
 use nalgebra::{Matrix4, Vector3, Vector4};
 use quad_math::{Real, constant};
@@ -266,7 +266,9 @@ where
     BuildError::check_phenomena(model, phenomena, capabilities::<R, M>())?;
     let has = |phenomenon| phenomena.contains(phenomenon);
     let trimmed = rotor_set::<f64, M::OverF64>(vehicle, phenomena)?;
-    let blockage = has(Phenomenon::Blockage).then(|| Blockage::<f64>::of(vehicle)).transpose()?;
+    let blockage = has(Phenomenon::Blockage)
+        .then(|| Blockage::<f64>::of(vehicle))
+        .transpose()?;
     let lift = vehicle.weight() / (1.0 - blockage.map_or(0.0, |b| b.share_in_hover()));
     let hover = trimmed.hover_commands(vehicle, model, has(Phenomenon::InputLimits), lift)?;
     Ok(Quadrotor {

@@ -83,13 +83,7 @@ impl<R: Real> Dryden<R> {
 
     /// The filters' states after flying for `h` seconds at an airspeed V ≥ 0, m/s.
     #[inline]
-    pub fn step(
-        &self,
-        state: &DrydenState<R>,
-        airspeed: R,
-        h: R,
-        noise: &DrydenNoise<R>,
-    ) -> DrydenState<R> {
+    pub fn step(&self, state: &DrydenState<R>, airspeed: R, h: R, noise: &DrydenNoise<R>) -> DrydenState<R> {
         let way = airspeed * h;
         DrydenState {
             along: first_order(state.along, way / self.length.x, noise.along),
@@ -104,8 +98,11 @@ impl<R: Real> Dryden<R> {
         let root = constant::<R>(3.0_f64.sqrt());
         let scale = constant::<R>(std::f64::consts::FRAC_1_SQRT_2);
         let lateral = |[x_1, x_2]: [R; 2]| (root * x_1 + (R::one() - root) * x_2) * scale;
-        self.intensity
-            .component_mul(&Vector3::new(state.along, lateral(state.across), lateral(state.down)))
+        self.intensity.component_mul(&Vector3::new(
+            state.along,
+            lateral(state.across),
+            lateral(state.down),
+        ))
     }
 }
 

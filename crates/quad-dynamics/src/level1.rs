@@ -14,8 +14,8 @@
 use crate::model::RotorSnapshot;
 use crate::quadrotor::{CommandLimits, RotorSet};
 use crate::{
-    BuildError, Capabilities, Flight, Hover, Input, Kick, Level, ModelName, Phenomenon, PhenomenonSet, QuadrotorModel, RigidBody,
-    RigidBodyState, Snapshot, Vehicle,
+    BuildError, Capabilities, Flight, Hover, Input, Kick, Level, ModelName, Phenomenon, PhenomenonSet,
+    QuadrotorModel, RigidBody, RigidBodyState, Snapshot, Vehicle,
 };
 use nalgebra::Vector3;
 use quad_kinematics::{EulerAngles, EulerRates};
@@ -111,7 +111,12 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
             .contains(Phenomenon::InputLimits)
             .then(|| CommandLimits::of(vehicle));
         let parts = RotorSet::<f64, IdealRotor<f64>, ConstantVoltage<f64>>::linear(vehicle, None);
-        let hover = parts.hover_commands(vehicle, ModelName(Self::LEVEL), limits.is_some(), vehicle.weight())?;
+        let hover = parts.hover_commands(
+            vehicle,
+            ModelName(Self::LEVEL),
+            limits.is_some(),
+            vehicle.weight(),
+        )?;
         Ok(Self {
             body: RigidBody::of(vehicle),
             rotor_set: RotorSet::<R, IdealRotor<R>, ConstantVoltage<R>>::linear(vehicle, limits),

@@ -95,8 +95,8 @@ pub use attribution::{Attribution, AttributionError, MOST_PARTS, Parts, Share, s
 pub use blockage::Blockage;
 pub use dryden::{Dryden, DrydenNoise, DrydenState};
 pub use error::{BuildError, ModelName};
-pub use ground_effect::GroundEffect;
 pub use forces::{Drag, RotorGeometry, gyroscopic_torque};
+pub use ground_effect::GroundEffect;
 pub use level1::{Level1, LinearRate, LinearState};
 pub use model::{Flight, Hover, Input, Level, NoSuchLevel, QuadrotorModel, RotorSnapshot, Snapshot, StateOf};
 pub use phenomenon::{Capabilities, Phenomenon, PhenomenonSet, Prerequisite};

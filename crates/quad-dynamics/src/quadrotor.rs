@@ -15,8 +15,9 @@
 use crate::forces::sum_of_four;
 use crate::model::RotorSnapshot;
 use crate::{
-    Blockage, BuildError, Drag, Flight, GroundEffect, Hover, Input, Kick, Level, PhenomenonSet, QuadrotorModel, QuadrotorRate,
-    QuadrotorState, RigidBody, RigidBodyState, RotorGeometry, Snapshot, Vehicle, gyroscopic_torque,
+    Blockage, BuildError, Drag, Flight, GroundEffect, Hover, Input, Kick, Level, PhenomenonSet,
+    QuadrotorModel, QuadrotorRate, QuadrotorState, RigidBody, RigidBodyState, RotorGeometry, Snapshot,
+    Vehicle, gyroscopic_torque,
 };
 use nalgebra::Vector3;
 use quad_math::{RateOf, Real, System};

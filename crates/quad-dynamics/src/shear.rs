@@ -54,13 +54,17 @@ pub enum ShearError {
         reference_height_m: f64,
     },
     /// An exponent outside 0 to 1.
-    #[error("an exponent of {exponent} in the power law of the wind: it must lie in 0 to 1; 0.143 is open ground")]
+    #[error(
+        "an exponent of {exponent} in the power law of the wind: it must lie in 0 to 1; 0.143 is open ground"
+    )]
     Exponent {
         /// Exponent.
         exponent: f64,
     },
     /// A height that is not above the ground.
-    #[error("a reference height of {reference_height_m} m for the wind: it must be above the ground (20 ft = 6.096 m is usual)")]
+    #[error(
+        "a reference height of {reference_height_m} m for the wind: it must be above the ground (20 ft = 6.096 m is usual)"
+    )]
     Height {
         /// Reference height, m.
         reference_height_m: f64,
@@ -85,7 +89,9 @@ impl Shear {
             return Err(ShearError::Height { reference_height_m });
         }
         match self.profile {
-            ShearProfile::Logarithmic { roughness_m } if !(roughness_m > 0.0 && roughness_m < reference_height_m) => {
+            ShearProfile::Logarithmic { roughness_m }
+                if !(roughness_m > 0.0 && roughness_m < reference_height_m) =>
+            {
                 Err(ShearError::Roughness {
                     roughness_m,
                     reference_height_m,
@@ -129,7 +135,12 @@ mod tests {
     #[test]
     fn exact_logarithmic_profile() {
         let gain = |h: f64| logarithmic().gain(h);
-        for (height, expected) in [(0.6096, 0.0), (6.096, 1.0), (60.96, 2.0), (3.048, 0.698_970_004_336)] {
+        for (height, expected) in [
+            (0.6096, 0.0),
+            (6.096, 1.0),
+            (60.96, 2.0),
+            (3.048, 0.698_970_004_336),
+        ] {
             assert_relative_eq!(gain(height), expected, epsilon = 1e-12);
         }
         for below in [0.1, 0.0, -5.0] {
@@ -150,14 +161,29 @@ mod tests {
 
     #[test]
     fn exact_wrong_profiles_are_errors() {
-        let with = |profile, reference_height_m| Shear { profile, reference_height_m }.check();
+        let with = |profile, reference_height_m| {
+            Shear {
+                profile,
+                reference_height_m,
+            }
+            .check()
+        };
         let rough = |roughness_m| ShearProfile::Logarithmic { roughness_m };
         assert!(logarithmic().check().is_ok());
         for bad in [0.0, -1.0, 7.0, f64::NAN] {
-            assert!(matches!(with(rough(bad), 6.0), Err(ShearError::Roughness { .. })), "{bad}");
+            assert!(
+                matches!(with(rough(bad), 6.0), Err(ShearError::Roughness { .. })),
+                "{bad}"
+            );
         }
         let message = with(rough(0.1), -20.0).unwrap_err().to_string();
-        assert!(message.contains("-20 m") && message.contains("above the ground"), "{message}");
-        assert!(matches!(with(ShearProfile::Power { exponent: 2.0 }, 6.0), Err(ShearError::Exponent { .. })));
+        assert!(
+            message.contains("-20 m") && message.contains("above the ground"),
+            "{message}"
+        );
+        assert!(matches!(
+            with(ShearProfile::Power { exponent: 2.0 }, 6.0),
+            Err(ShearError::Exponent { .. })
+        ));
     }
 }

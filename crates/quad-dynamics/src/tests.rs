@@ -335,13 +335,18 @@ fn agree_prerequisites_with_what_builds() {
                     assert!(!admitted, "{level}, {phenomenon}");
                     let text = error.to_string();
                     let prerequisite = phenomenon.prerequisite().to_string();
-                    assert!(text.contains(phenomenon.name()) && text.contains(&prerequisite), "{text}");
+                    assert!(
+                        text.contains(phenomenon.name()) && text.contains(&prerequisite),
+                        "{text}"
+                    );
                 }
             }
         }
     }
     // What needs drag comes with it, and goes with it.
-    let windy = PhenomenonSet::none().with(Phenomenon::Drag).with(Phenomenon::Turbulence);
+    let windy = PhenomenonSet::none()
+        .with(Phenomenon::Drag)
+        .with(Phenomenon::Turbulence);
     assert!(Level2::<f64>::build(&vehicle, &windy).is_ok());
     assert_eq!(windy.admitted_by(Level::One), PhenomenonSet::none());
     let message = Level2::<f64>::build(&vehicle, &windy.without(Phenomenon::Drag)).unwrap_err();
@@ -372,8 +377,15 @@ fn exact_kicks_change_velocity_and_rates() {
         let after = quadrotor.flight();
         assert!(before.attitude.roll.abs() > 0.01);
         assert_relative_eq!(after.velocity - before.velocity, kick.velocity, epsilon = 1e-14);
-        assert_relative_eq!(after.body_rates - before.body_rates, kick.body_rates, epsilon = 1e-13);
-        assert_eq!((after.position, after.attitude), (before.position, before.attitude));
+        assert_relative_eq!(
+            after.body_rates - before.body_rates,
+            kick.body_rates,
+            epsilon = 1e-13
+        );
+        assert_eq!(
+            (after.position, after.attitude),
+            (before.position, before.attitude)
+        );
     }
 }
 

@@ -47,7 +47,10 @@ fn round_trip<F: Family>(draw: &Draw) -> Result<(), TestCaseError> {
 /// Hover: no acceleration of any kind, in the air and in the rotors; only the battery's charge moves.
 fn hover_is_a_fixed_point<F: Family>(vehicle: &Vehicle, yaw: f64) -> Result<(), TestCaseError> {
     // The trim is that of free air.
-    for on in [PhenomenonSet::none(), everything::<F>().without(Phenomenon::GroundEffect)] {
+    for on in [
+        PhenomenonSet::none(),
+        everything::<F>().without(Phenomenon::GroundEffect),
+    ] {
         let model = F::Over::<f64>::build(vehicle, &on).unwrap();
         let hover = model.hover(Vector3::new(1.0, 2.0, -3.0), yaw);
         let rates = flat(&model.derivative(&hover.state, &hover.input));

@@ -55,7 +55,11 @@ fn data_intensities_at_20_ft() {
     for axis in 0..3 {
         assert_relative_eq!(intensity[axis], formula[axis], max_relative = 2e-4);
         // Its run of 3000 s knows σ to 2.8 %, 2.2 % and 0.8 %; twice that on each axis.
-        assert_relative_eq!(intensity[axis], flown[axis], max_relative = 2.0 * standard_error(axis, 3000.0));
+        assert_relative_eq!(
+            intensity[axis],
+            flown[axis],
+            max_relative = 2.0 * standard_error(axis, 3000.0)
+        );
     }
     assert_relative_eq!(reference().length.z / FOOT_M, 20.0, max_relative = 1e-12);
 }
@@ -69,7 +73,11 @@ fn exact_standard_deviations_over_a_long_flight() {
         let square: f64 = gusts.iter().map(|g| g[axis] * g[axis]).sum();
         let measured = (square / gusts.len() as f64).sqrt();
         let expected = reference().intensity[axis] / FOOT_M;
-        assert_relative_eq!(measured, expected, max_relative = 3.0 * standard_error(axis, duration));
+        assert_relative_eq!(
+            measured,
+            expected,
+            max_relative = 3.0 * standard_error(axis, duration)
+        );
     }
 }
 
@@ -190,7 +198,12 @@ fn agree_lanes_with_scalars() {
         for axis in 0..3 {
             let lane = <[f64; 4]>::from(gust[axis].0)[k];
             // Exponentials of lanes and scalars may differ in the last bits.
-            assert_relative_eq!(lane, alone.gust(&state)[axis], max_relative = 1e-13, epsilon = 1e-14);
+            assert_relative_eq!(
+                lane,
+                alone.gust(&state)[axis],
+                max_relative = 1e-13,
+                epsilon = 1e-14
+            );
         }
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use nalgebra::Matrix4;
 
 use super::{
-    ArmParameters, BatteryParameters, DragParameters, MotorParameters, PolynomialRotorParameters, PropellerParameters,
-    RotorDynamicsParameters, Vehicle, VehicleError,
+    ArmParameters, BatteryParameters, DragParameters, MotorParameters, PolynomialRotorParameters,
+    PropellerParameters, RotorDynamicsParameters, Vehicle, VehicleError,
 };
 
 /// Number of rotors, as the divisor of shares.

@@ -3,14 +3,14 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::file::{
-    AirframeFile, BatteryFile, ArmsFile, DragFile, EnvironmentFile, LinearRotorFile, MotorFile, Number,
+    AirframeFile, ArmsFile, BatteryFile, DragFile, EnvironmentFile, LinearRotorFile, MotorFile, Number,
     PolynomialRotorFile, PropellerFile, PwmFile, RotorDynamicsFile, RotorFile, Triple,
 };
 use super::limits::{self, Quantity};
 use super::{
-    Airframe, BatteryParameters, ArmParameters, DragParameters, Environment, LinearRotorParameters, MotorParameters,
-    PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters, RotorMount, Sourced,
-    Vehicle, VehicleError, VehicleFile,
+    Airframe, ArmParameters, BatteryParameters, DragParameters, Environment, LinearRotorParameters,
+    MotorParameters, PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters,
+    RotorMount, Sourced, Vehicle, VehicleError, VehicleFile,
 };
 
 impl Vehicle {

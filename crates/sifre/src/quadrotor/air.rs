@@ -71,7 +71,9 @@ pub struct ProcessNoiseSource {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum AirError {
     /// A wind that no one has seen.
-    #[error("a wind of {speed_m_s} m/s: it must be a number up to {STRONGEST_WIND_M_S} m/s (is it in another unit?)")]
+    #[error(
+        "a wind of {speed_m_s} m/s: it must be a number up to {STRONGEST_WIND_M_S} m/s (is it in another unit?)"
+    )]
     TooStrong {
         /// Its speed, m/s.
         speed_m_s: f64,
@@ -94,7 +96,9 @@ pub enum AirError {
         wanted: &'static str,
     },
     /// A start below the ground where a phenomenon needs a height above it.
-    #[error("it starts at an altitude of {altitude_m} m, below the ground (z of W points down), where {phenomenon} has no meaning")]
+    #[error(
+        "it starts at an altitude of {altitude_m} m, below the ground (z of W points down), where {phenomenon} has no meaning"
+    )]
     BelowGround {
         /// The altitude, −z, m.
         altitude_m: f64,

@@ -114,13 +114,14 @@ impl Quadrotor {
         let quadrotor = build(&setup.level)?;
         let scripted = setup.script.choices().map(build).collect::<Result<Vec<_>, _>>()?;
         let models = std::iter::once(&quadrotor).chain(&scripted);
+        let hover_draw = models.map(hover_draw).fold(0.0, f64::max);
         Ok(Self {
             reference: Reference::hold(setup.position(), setup.start.yaw_rad),
             input: quadrotor.hover_input(),
             quadrotor,
             air: Air::new(&setup.script.wind),
             charge_drawn: 0.0,
-            hover_draw: models.map(hover_draw).fold(0.0, f64::max),
+            hover_draw,
             scripted,
             entry: None,
             near: None,
@@ -162,8 +163,14 @@ impl Quadrotor {
         check_pairing(self.setup.pilot.level(), choice.level)
             .map_err(|error| QuadrotorError::controller(name(), error))?;
         let phenomena = self.setup.script.phenomena(choice);
-        let next = model(&self.setup.vehicle, choice.level, &phenomena, Vector3::zeros(), 0.0)
-            .map_err(|error| QuadrotorError::build(name(), error))?;
+        let next = model(
+            &self.setup.vehicle,
+            choice.level,
+            &phenomena,
+            Vector3::zeros(),
+            0.0,
+        )
+        .map_err(|error| QuadrotorError::build(name(), error))?;
         Ok(self.go_on_as(next))
     }
 

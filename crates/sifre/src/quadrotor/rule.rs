@@ -127,8 +127,18 @@ mod tests {
 
     #[test]
     fn exact_wrong_distances_are_errors() {
-        for (fine_within_m, coarse_beyond_m) in [(3.0, 2.0), (2.0, 2.0), (-1.0, 2.0), (1.0, f64::NAN), (f64::NAN, 1.0)] {
-            let rule = LevelRule { fine_within_m, coarse_beyond_m, ..rule() };
+        for (fine_within_m, coarse_beyond_m) in [
+            (3.0, 2.0),
+            (2.0, 2.0),
+            (-1.0, 2.0),
+            (1.0, f64::NAN),
+            (f64::NAN, 1.0),
+        ] {
+            let rule = LevelRule {
+                fine_within_m,
+                coarse_beyond_m,
+                ..rule()
+            };
             assert!(rule.check().is_err(), "{fine_within_m} {coarse_beyond_m}");
         }
         assert!(rule().check().is_ok());

@@ -76,7 +76,11 @@ impl Script {
     /// What is switched on at a level: what the choice says, or else the level's own phenomena and those that the script
     /// feeds (`wind-shear`, `turbulence`, `process-noise`).
     pub fn phenomena(&self, choice: &LevelChoice) -> PhenomenonSet {
-        let fed = self.sources().into_iter().filter(|s| s.is_there).map(|s| s.phenomenon);
+        let fed = self
+            .sources()
+            .into_iter()
+            .filter(|s| s.is_there)
+            .map(|s| s.phenomenon);
         match &choice.phenomena {
             Some(phenomena) => phenomena.clone(),
             None => fed.fold(choice.level.phenomena(), PhenomenonSet::with),
@@ -97,8 +101,16 @@ impl Script {
         };
         [
             source(Phenomenon::WindShear, "wind.shear", self.wind.shear.is_some()),
-            source(Phenomenon::Turbulence, "wind.turbulence", self.wind.turbulence.is_some()),
-            source(Phenomenon::ProcessNoise, "process_noise", self.process_noise.is_some()),
+            source(
+                Phenomenon::Turbulence,
+                "wind.turbulence",
+                self.wind.turbulence.is_some(),
+            ),
+            source(
+                Phenomenon::ProcessNoise,
+                "process_noise",
+                self.process_noise.is_some(),
+            ),
         ]
     }
 
@@ -113,13 +125,21 @@ impl Script {
 
     /// Checks that what is switched on is fed, and has a ground below it.
     fn check_phenomena(&self, phenomena: &PhenomenonSet, altitude_m: f64) -> Result<(), AirError> {
-        if let Some(missing) = self.sources().into_iter().find(|s| !s.is_there && phenomena.contains(s.phenomenon)) {
+        if let Some(missing) = self
+            .sources()
+            .into_iter()
+            .find(|s| !s.is_there && phenomena.contains(s.phenomenon))
+        {
             return Err(AirError::NoSource {
                 phenomenon: missing.phenomenon,
                 wanted: missing.wanted,
             });
         }
-        let grounded = [Phenomenon::GroundEffect, Phenomenon::WindShear, Phenomenon::Turbulence];
+        let grounded = [
+            Phenomenon::GroundEffect,
+            Phenomenon::WindShear,
+            Phenomenon::Turbulence,
+        ];
         match grounded.into_iter().find(|p| phenomena.contains(*p)) {
             Some(phenomenon) if altitude_m < 0.0 => Err(AirError::BelowGround {
                 altitude_m,
@@ -271,7 +291,9 @@ pub enum QuadrotorError {
         source: RuleError,
     },
     /// Levels by time and by distance at once.
-    #[error("quadrotor \"{name}\": its level is to change at given times and by a rule of distance: keep one of script.level and script.rule")]
+    #[error(
+        "quadrotor \"{name}\": its level is to change at given times and by a rule of distance: keep one of script.level and script.rule"
+    )]
     TwoMasters {
         /// The agent.
         name: String,

@@ -20,7 +20,13 @@ fn setup(choice: LevelChoice, script: Script) -> Setup {
     Setup {
         start,
         script,
-        ..Setup::new("a", &vehicle, choice, c3(&vehicle), Reference::hold(at.into(), 0.0))
+        ..Setup::new(
+            "a",
+            &vehicle,
+            choice,
+            c3(&vehicle),
+            Reference::hold(at.into(), 0.0),
+        )
     }
 }
 
@@ -72,9 +78,17 @@ fn exact_wind_pushes_where_it_blows() {
     let column = |name: &str| -> Vec<f64> { recording.column(&format!("a.{name}")).unwrap().collect() };
     let (x, y) = (column("position.x"), column("position.y"));
     let (wind_x, wind_y) = (column("wind.x"), column("wind.y"));
-    assert!(x[400] < -1e-3 && y[400].abs() < 1e-3 * x[400].abs(), "{} {}", x[400], y[400]);
+    assert!(
+        x[400] < -1e-3 && y[400].abs() < 1e-3 * x[400].abs(),
+        "{} {}",
+        x[400],
+        y[400]
+    );
     assert!(y[900] > 1e-4, "{}", y[900]);
-    assert_eq!((wind_x[499], wind_y[499], wind_x[500], wind_y[500]), (-2.0, 0.0, -2.0, 3.0));
+    assert_eq!(
+        (wind_x[499], wind_y[499], wind_x[500], wind_y[500]),
+        (-2.0, 0.0, -2.0, 3.0)
+    );
 
     let mut indifferent = flying(Level::Three, script());
     let (_, recording) = run_recorded(&mut indifferent, 2.0);
@@ -183,27 +197,76 @@ fn exact_an_unmet_prerequisite_names_both() {
     let error = refused(choice, Script::default());
     assert!(matches!(
         error,
-        QuadrotorError::Air { source: AirError::NoSource { phenomenon: Phenomenon::Turbulence, .. }, .. }
+        QuadrotorError::Air {
+            source: AirError::NoSource {
+                phenomenon: Phenomenon::Turbulence,
+                ..
+            },
+            ..
+        }
     ));
 }
 
 #[test]
 fn exact_impossible_air_is_refused() {
-    let wind = |wind| Script { wind, ..Script::default() };
+    let wind = |wind| Script {
+        wind,
+        ..Script::default()
+    };
     let gale = [0.0, 1000.0, 0.0];
     let too_strong = [
-        wind(Wind { constant_m_s: gale, ..Wind::default() }),
-        wind(Wind { steps_m_s: Schedule::new([(1.0, gale)]).unwrap(), ..Wind::default() }),
-        wind(Wind { constant_m_s: [f64::NAN; 3], ..Wind::default() }),
-        wind(Wind { turbulence: Some(Turbulence { w20_m_s: 1000.0, seed: 0 }), ..Wind::default() }),
-        wind(Wind { turbulence: Some(Turbulence { w20_m_s: -1.0, seed: 0 }), ..Wind::default() }),
-        Script { wind_m_s: Schedule::new([(0.0, gale)]).unwrap(), ..Script::default() },
+        wind(Wind {
+            constant_m_s: gale,
+            ..Wind::default()
+        }),
+        wind(Wind {
+            steps_m_s: Schedule::new([(1.0, gale)]).unwrap(),
+            ..Wind::default()
+        }),
+        wind(Wind {
+            constant_m_s: [f64::NAN; 3],
+            ..Wind::default()
+        }),
+        wind(Wind {
+            turbulence: Some(Turbulence {
+                w20_m_s: 1000.0,
+                seed: 0,
+            }),
+            ..Wind::default()
+        }),
+        wind(Wind {
+            turbulence: Some(Turbulence {
+                w20_m_s: -1.0,
+                seed: 0,
+            }),
+            ..Wind::default()
+        }),
+        Script {
+            wind_m_s: Schedule::new([(0.0, gale)]).unwrap(),
+            ..Script::default()
+        },
     ];
     for script in too_strong {
         let error = refused(Level::Five, script);
-        assert!(matches!(error, QuadrotorError::Air { source: AirError::TooStrong { .. }, .. }), "{error}");
+        assert!(
+            matches!(
+                error,
+                QuadrotorError::Air {
+                    source: AirError::TooStrong { .. },
+                    ..
+                }
+            ),
+            "{error}"
+        );
     }
-    let text = refused(Level::Five, wind(Wind { constant_m_s: gale, ..Wind::default() })).to_string();
+    let text = refused(
+        Level::Five,
+        wind(Wind {
+            constant_m_s: gale,
+            ..Wind::default()
+        }),
+    )
+    .to_string();
     assert!(text.contains("1000 m/s") && text.contains("120 m/s"), "{text}");
 
     let noise = ProcessNoiseSource {
@@ -211,8 +274,20 @@ fn exact_impossible_air_is_refused() {
         angular_acceleration_rad_s2_sqrt_hz: 0.0,
         seed: 0,
     };
-    let error = refused(Level::Five, Script { process_noise: Some(noise), ..Script::default() });
-    assert!(matches!(error, QuadrotorError::Air { source: AirError::Intensity { value: -1.0 }, .. }));
+    let error = refused(
+        Level::Five,
+        Script {
+            process_noise: Some(noise),
+            ..Script::default()
+        },
+    );
+    assert!(matches!(
+        error,
+        QuadrotorError::Air {
+            source: AirError::Intensity { value: -1.0 },
+            ..
+        }
+    ));
 }
 
 #[test]
@@ -221,8 +296,16 @@ fn exact_a_start_below_the_ground_is_refused() {
         level: Level::Five,
         phenomena: Some(Level::Five.phenomena().with(Phenomenon::GroundEffect)),
     };
-    let start = Start { position_m: [0.0, 0.0, 3.0], yaw_rad: 0.0 };
-    let below = |choice: LevelChoice| Quadrotor::new(Setup { start, ..setup(choice, Script::default()) });
+    let start = Start {
+        position_m: [0.0, 0.0, 3.0],
+        yaw_rad: 0.0,
+    };
+    let below = |choice: LevelChoice| {
+        Quadrotor::new(Setup {
+            start,
+            ..setup(choice, Script::default())
+        })
+    };
     let text = below(choice).unwrap_err().to_string();
     assert!(text.contains("-3 m") && text.contains("ground-effect"), "{text}");
     // Without a ground there is no below.
@@ -240,7 +323,10 @@ fn exact_scripts_survive_a_file() {
     let text = serde_json::to_string(&script).unwrap();
     assert_eq!(serde_json::from_str::<Script>(&text).unwrap(), script);
     let short = r#"{"wind": {"shear": {"profile": {"law": "power", "exponent": 0.143}}}}"#;
-    assert_eq!(serde_json::from_str::<Script>(short).unwrap().wind.shear, script.wind.shear);
+    assert_eq!(
+        serde_json::from_str::<Script>(short).unwrap().wind.shear,
+        script.wind.shear
+    );
     let plain = serde_json::to_string(&Script::default()).unwrap();
     assert!(!plain.contains("wind\"") && !plain.contains("rule"), "{plain}");
 }

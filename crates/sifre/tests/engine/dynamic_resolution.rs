@@ -5,9 +5,7 @@ use quad_dynamics::{Level, Resolution, Vehicle};
 use quad_ndi::{AnyController, C1, LoopSettings, Settings, TiltLaw, Waypoint};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelRule, QuadrotorError, Script, Setup, Start};
-use sifre::{
-    AgentEvent, Member, Mission, Quadrotor, Recording, Schedule, Simulation, Target,
-};
+use sifre::{AgentEvent, Member, Mission, Quadrotor, Recording, Schedule, Simulation, Target};
 
 const END_S: f64 = 40.0;
 const FINE_WITHIN_M: f64 = 3.0;
@@ -35,7 +33,12 @@ fn mission() -> Mission {
         yaw_rad: 0.0,
         yaw_rate_rad_s: 0.0,
     };
-    let points = [waypoint(0.0, -12.0), waypoint(16.0, -1.0), waypoint(24.0, -1.0), waypoint(END_S, -12.0)];
+    let points = [
+        waypoint(0.0, -12.0),
+        waypoint(16.0, -1.0),
+        waypoint(24.0, -1.0),
+        waypoint(END_S, -12.0),
+    ];
     Mission::through(&points, 9.81, TiltLaw::SmallAngle).unwrap()
 }
 
@@ -52,8 +55,14 @@ fn rule(fine: Level, coarse: Level) -> LevelRule {
 fn members(rule: Option<LevelRule>) -> Vec<Member> {
     let vehicle = vehicle();
     let setup = Setup {
-        start: Start { position_m: [-12.0, 0.0, -2.0], yaw_rad: 0.0 },
-        script: Script { rule, ..Script::default() },
+        start: Start {
+            position_m: [-12.0, 0.0, -2.0],
+            yaw_rad: 0.0,
+        },
+        script: Script {
+            rule,
+            ..Script::default()
+        },
         ..Setup::new("a", &vehicle, Level::Five, pilot(&vehicle), mission())
     };
     let station = Target::fixed("station", [0.0, 0.0, -2.0].into());
@@ -78,11 +87,16 @@ fn column(recording: &Recording, name: &str) -> Vec<f64> {
 /// Numbers of states that were integrated: four evaluations of the derivative a step, each of all states.
 fn cost(recording: &Recording) -> f64 {
     let states = Level::ALL.map(|level| Resolution::of(level, &level.phenomena()).states as f64);
-    column(recording, "level").iter().map(|&level| 4.0 * states[level as usize - 1]).sum()
+    column(recording, "level")
+        .iter()
+        .map(|&level| 4.0 * states[level as usize - 1])
+        .sum()
 }
 
 fn largest(mut values: impl Iterator<Item = f64>) -> f64 {
-    values.try_fold(0.0, |m: f64, x| x.is_finite().then(|| m.max(x.abs()))).unwrap_or(f64::NAN)
+    values
+        .try_fold(0.0, |m: f64, x| x.is_finite().then(|| m.max(x.abs())))
+        .unwrap_or(f64::NAN)
 }
 
 /// Coarse, fine, coarse; at the rule's distances; nothing seen of the flight jumps. Far from the station it keeps within 0.3 m of the flight
@@ -110,10 +124,16 @@ fn agree_with_level_5_at_a_fraction_of_its_cost() {
     // No jumps: each step moves by the trapezium of the velocities, to h³/12 times the jerk (1e-9 for 1 m/s³), and
     // velocities by no more than 2 g h.
     for axis in ["x", "y", "z"] {
-        let (p, v) = (column(&mixed, &format!("position.{axis}")), column(&mixed, &format!("velocity.{axis}")));
+        let (p, v) = (
+            column(&mixed, &format!("position.{axis}")),
+            column(&mixed, &format!("velocity.{axis}")),
+        );
         let gaps = (1..p.len()).map(|k| p[k] - p[k - 1] - 1e-3 * (v[k] + v[k - 1]));
         assert!(largest(gaps) < 1e-6, "{axis}");
-        assert!(largest((1..v.len()).map(|k| v[k] - v[k - 1])) < 2.0 * 9.81 * 2e-3, "{axis}");
+        assert!(
+            largest((1..v.len()).map(|k| v[k] - v[k - 1])) < 2.0 * 9.81 * 2e-3,
+            "{axis}"
+        );
     }
 
     // Distance to level 5 throughout, near the station from half a second after the change on, and anywhere.
@@ -132,7 +152,12 @@ fn agree_with_level_5_at_a_fraction_of_its_cost() {
     assert!(share < 0.75, "{share}");
     // The battery goes on as in hover at level 2: it is within a twentieth of what level 5 drew, and never goes back.
     let (charge, drawn) = (column(&mixed, "charge_drawn"), column(&whole, "charge_drawn"));
-    assert!((charge[at(2)] / drawn[at(2)] - 1.0).abs() < 0.05, "{} {}", charge[at(2)], drawn[at(2)]);
+    assert!(
+        (charge[at(2)] / drawn[at(2)] - 1.0).abs() < 0.05,
+        "{} {}",
+        charge[at(2)],
+        drawn[at(2)]
+    );
     assert!(charge.windows(2).all(|pair| pair[1] >= pair[0]));
 }
 
@@ -155,16 +180,37 @@ fn exact_a_rule_survives_a_snapshot() {
 #[test]
 fn exact_wrong_rules_are_refused() {
     let vehicle = vehicle();
-    let with = |script| Quadrotor::new(Setup { script, ..Setup::new("a", &vehicle, Level::Five, pilot(&vehicle), mission()) });
+    let with = |script| {
+        Quadrotor::new(Setup {
+            script,
+            ..Setup::new("a", &vehicle, Level::Five, pilot(&vehicle), mission())
+        })
+    };
     let rule = rule(Level::Five, Level::Two);
-    let narrow = LevelRule { coarse_beyond_m: 1.0, ..rule.clone() };
-    let error = with(Script { rule: Some(narrow), ..Script::default() }).unwrap_err();
+    let narrow = LevelRule {
+        coarse_beyond_m: 1.0,
+        ..rule.clone()
+    };
+    let error = with(Script {
+        rule: Some(narrow),
+        ..Script::default()
+    })
+    .unwrap_err();
     assert!(matches!(error, QuadrotorError::Rule { .. }), "{error}");
     let level = Schedule::new([(1.0, Level::Two.into())]).unwrap();
-    let error = with(Script { rule: Some(rule.clone()), level, ..Script::default() }).unwrap_err();
+    let error = with(Script {
+        rule: Some(rule.clone()),
+        level,
+        ..Script::default()
+    })
+    .unwrap_err();
     assert!(matches!(error, QuadrotorError::TwoMasters { .. }), "{error}");
     // A station that isn't there.
-    let alone = with(Script { rule: Some(rule), ..Script::default() }).unwrap();
+    let alone = with(Script {
+        rule: Some(rule),
+        ..Script::default()
+    })
+    .unwrap();
     let error = Simulation::new(vec![Member::new(alone, ms(2.0))]).unwrap_err();
     assert!(error.to_string().contains("station"), "{error}");
 }

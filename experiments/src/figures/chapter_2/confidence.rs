@@ -13,7 +13,6 @@ use crate::item::ItemError;
 use quad_dynamics::{AnyQuadrotor, Level, Resolution, Snapshot, Vehicle};
 use quad_math::FixedStep;
 use quad_ndi::{AnyController, C1, Reference, TiltLaw, Trajectory};
-use std::time::Instant;
 use sysid::validation::Agreement;
 
 /// Names of the axes compared: velocity north, east, down; roll, pitch and yaw rates.
@@ -32,8 +31,6 @@ pub(super) struct Confidence {
     pub(super) states: usize,
     /// Theil's coefficient of each axis.
     pub(super) theil: [f64; 6],
-    /// Time of one step on this machine, ns.
-    pub(super) ns_per_step: f64,
 }
 
 impl Confidence {
@@ -58,7 +55,13 @@ fn motion(quadrotor: &AnyQuadrotor<f64>) -> [f64; 6] {
 /// All levels against level 5.
 pub(super) fn of_family(vehicle: &Vehicle) -> Result<Vec<Confidence>, ItemError> {
     let hovering = |level: Level| {
-        AnyQuadrotor::<f64>::hovering(level, vehicle, &level.phenomena(), nalgebra::Vector3::zeros(), 0.0)
+        AnyQuadrotor::<f64>::hovering(
+            level,
+            vehicle,
+            &level.phenomena(),
+            nalgebra::Vector3::zeros(),
+            0.0,
+        )
     };
     let Task::Follow { waypoints } = crate::figures::reference_scenario(Law::C1).task else {
         return Err(ItemError::new("the reference of figure 6.17 is no trajectory"));
@@ -66,13 +69,19 @@ pub(super) fn of_family(vehicle: &Vehicle) -> Result<Vec<Confidence>, ItemError>
     let path = Trajectory::through(&waypoints)?;
     let mut pilot = AnyController::<f64>::C1(C1::new(vehicle, &flight_settings())?.into());
     let mut truth = hovering(Level::Five)?;
-    let mut levels = Level::ALL.map(hovering).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut levels = Level::ALL
+        .map(hovering)
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()?;
     let mut changes: Vec<[Vec<f64>; 6]> = vec![Default::default(); levels.len()];
-    let mut times_ns = vec![0.0; levels.len()];
     let steps = (DURATION_S / STEP_S) as u32;
     for k in 0..steps {
         let time = f64::from(k) * STEP_S;
-        let reference = Reference::following(path.flat_output(time), vehicle.environment.gravity, TiltLaw::SmallAngle);
+        let reference = Reference::following(
+            path.flat_output(time),
+            vehicle.environment.gravity,
+            TiltLaw::SmallAngle,
+        );
         let mut input = truth.hover_input();
         input.commands = pilot.update(&truth.flight(), &reference, STEP_S);
         let body = truth.snapshot(&input).body;
@@ -80,9 +89,7 @@ pub(super) fn of_family(vehicle: &Vehicle) -> Result<Vec<Confidence>, ItemError>
             let own = quadrotor.snapshot(&input);
             quadrotor.adopt(&Snapshot { body, ..own }, &input);
             let before = motion(quadrotor);
-            let started = Instant::now();
             quadrotor.step(FixedStep::Rk4, &input, STEP_S);
-            times_ns[i] += started.elapsed().as_secs_f64() * 1e9;
             let after = motion(quadrotor);
             for (axis, series) in changes[i].iter_mut().enumerate() {
                 series.push(after[axis] - before[axis]);
@@ -102,7 +109,6 @@ pub(super) fn of_family(vehicle: &Vehicle) -> Result<Vec<Confidence>, ItemError>
             features: resolution.features.len(),
             states: resolution.states,
             theil,
-            ns_per_step: times_ns[i] / f64::from(steps),
         })
     };
     changes.iter().enumerate().map(of_level).collect()

@@ -4,12 +4,12 @@ use super::confidence::{self, AXES, Confidence};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
+use crate::figures::agreement_with_a_recorded_flight;
 use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
 use crate::plot::style::Marker;
-use crate::figures::agreement_with_a_recorded_flight;
-use crate::plot::{Figure, Panel, level_name, level_style, series_style};
+use crate::plot::{Figure, Panel, level_name, level_style};
 use quad_dynamics::Level;
 
 /// The figure.
@@ -27,10 +27,15 @@ pub(super) const ITEM: Item = Item {
 };
 
 const RISES: Claim = Claim::holds("confidence does not fall from one level to the next");
-const COSTED: Claim = Claim::holds("each level's cost is shown beside it, and does not fall from one level to the next");
+const COSTED: Claim =
+    Claim::holds("each level's cost is shown beside it, and does not fall from one level to the next");
 
+/// A thin line from level to level.
+const TREND: crate::plot::Look = crate::plot::Look::solid("#767676", 1.0);
 /// Grey for what was recorded.
-const MEASURED: crate::plot::Look = crate::plot::Look::solid("#767676", 1.2).dashed("4 3").marked(Marker::Square);
+const MEASURED: crate::plot::Look = crate::plot::Look::solid("#767676", 1.2)
+    .dashed("4 3")
+    .marked(Marker::Square);
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let family = confidence::of_family(&load_vehicle(context, NOMINAL_VEHICLE)?)?;
@@ -39,12 +44,24 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let mut cost = Panel::new("Resolution, features declared", "Cost, 10^{3} numbers s^{−1}")
         .x_range(-0.7, 9.7)
         .y_include(0.0);
-    agreement = agreement.line("", series_style(0), family.iter().map(|c| (c.features as f64, c.confidence())));
+    agreement = agreement.line(
+        "",
+        TREND,
+        family.iter().map(|c| (c.features as f64, c.confidence())),
+    );
     for c in &family {
         let n = c.level.number();
         let point = |y| std::iter::once((c.features as f64, y));
-        agreement = agreement.markers(level_name(n), level_style(n).marked(Marker::Circle), point(c.confidence()));
-        cost = cost.markers(level_name(n), level_style(n).marked(Marker::Circle), point(c.cost() / 1e3));
+        agreement = agreement.markers(
+            level_name(n),
+            level_style(n).marked(Marker::Circle),
+            point(c.confidence()),
+        );
+        cost = cost.markers(
+            level_name(n),
+            level_style(n).marked(Marker::Circle),
+            point(c.cost() / 1e3),
+        );
     }
     let of_level = |level| family.iter().find(|c| c.level == level);
     let measured = recorded
@@ -55,15 +72,23 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .panel(agreement)
         .panel(cost)
         .panel_size(300.0, 220.0)
-        .legends(Legends::EachPanel);
+        .legends(Legends::Common);
     let values: Vec<f64> = family.iter().map(Confidence::confidence).collect();
     let costs: Vec<f64> = family.iter().map(Confidence::cost).collect();
     let never_falls = |of: &[f64]| of.windows(2).all(|pair| pair[1] >= pair[0]);
     Ok(Drawing::picture(figure.draw())
         .data(table(&family))
         .note(words(&recorded))
-        .check(RISES, never_falls(&values), format!("1 − U of levels 1 to 5: {values:.4?}"))
-        .check(COSTED, never_falls(&costs), format!("numbers a second, levels 1 to 5: {costs:.0?}")))
+        .check(
+            RISES,
+            never_falls(&values),
+            format!("1 − U of levels 1 to 5: {values:.4?}"),
+        )
+        .check(
+            COSTED,
+            never_falls(&costs),
+            format!("numbers a second, levels 1 to 5: {costs:.0?}"),
+        ))
 }
 
 /// Agreement with a recorded flight; nothing where the recordings are not on this machine.
@@ -76,7 +101,8 @@ fn recorded(context: &Context) -> Result<Vec<(Level, f64)>, ItemError> {
 
 fn words(recorded: &[(Level, f64)]) -> String {
     if recorded.is_empty() {
-        return "The recorded flight is not on this machine (see the data page); its curve is left out.".into();
+        return "The recorded flight is not on this machine (see the data page); its curve is left out."
+            .into();
     }
     let fits: Vec<String> = recorded
         .iter()
@@ -93,8 +119,7 @@ fn table(family: &[Confidence]) -> DataTable {
     let mut columns = vec!["level", "features", "states", "cost_numbers_per_s", "confidence"];
     let names = AXES.map(|axis| format!("confidence_{axis}"));
     columns.extend(names.iter().map(String::as_str));
-    columns.push("measured_ns_per_step");
-    let mut data = DataTable::new(columns).with_volatile("measured_ns_per_step");
+    let mut data = DataTable::new(columns);
     for c in family {
         let [north, east, down, roll, pitch, yaw] = c.theil.map(|u| (1.0 - u).into());
         data.push([
@@ -109,7 +134,6 @@ fn table(family: &[Confidence]) -> DataTable {
             roll,
             pitch,
             yaw,
-            c.ns_per_step.into(),
         ]);
     }
     data

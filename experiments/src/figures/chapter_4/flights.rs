@@ -141,7 +141,10 @@ pub(crate) fn agreement_with_a_recorded_flight(context: &Context) -> Result<Vec<
     let study = study(context, UNSEEN)?;
     let mean = |level| -> Result<(Level, f64), ItemError> {
         let agreement = &study.run(level, Prediction::OneStep)?.agreement;
-        let axes = agreement.acceleration.iter().chain(&agreement.angular_acceleration);
+        let axes = agreement
+            .acceleration
+            .iter()
+            .chain(&agreement.angular_acceleration);
         Ok((level, 1.0 - axes.map(|axis| axis.theil).sum::<f64>() / 6.0))
     };
     LEVELS.into_iter().map(mean).collect()

@@ -27,9 +27,26 @@ const BUILT: Claim = Claim::holds(
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let vehicle = load_vehicle(context, NOMINAL_VEHICLE)?;
-    let header = ["Phenomenon", "Adds to the resolution", "Needs", "1", "2", "3", "4", "5", "Source"];
+    let header = [
+        "Phenomenon",
+        "Adds to the resolution",
+        "Needs",
+        "1",
+        "2",
+        "3",
+        "4",
+        "5",
+        "Source",
+    ];
     let mut shown = DisplayTable::new(header);
-    let mut data = DataTable::new(["phenomenon", "contribution", "prerequisite", "levels", "by_itself", "source"]);
+    let mut data = DataTable::new([
+        "phenomenon",
+        "contribution",
+        "prerequisite",
+        "levels",
+        "by_itself",
+        "source",
+    ]);
     let (mut tried, mut agreed) = (0, 0);
     for phenomenon in Phenomenon::ALL {
         let fits = Level::ALL.map(|level| {
