@@ -69,6 +69,7 @@
 //! turn. [`AnyQuadrotor::at_level`] does both.
 
 mod any;
+mod attribution;
 mod blockage;
 pub mod build;
 mod dryden;
@@ -90,6 +91,7 @@ mod tests;
 pub mod vehicle;
 
 pub use any::{AnyQuadrotor, InFlight};
+pub use attribution::{Attribution, AttributionError, MOST_PARTS, Parts, Share, shapley_values};
 pub use blockage::Blockage;
 pub use dryden::{Dryden, DrydenNoise, DrydenState};
 pub use error::{BuildError, ModelName};

@@ -19,7 +19,8 @@ mod chapter_7;
 mod glyphs;
 mod photographs;
 
-pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings};
+pub(crate) use chapter_4::agreement_with_a_recorded_flight;
+pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings, reference_scenario};
 
 const CHAPTERS: &[&[Item]] = &[
     photographs::ITEMS,

