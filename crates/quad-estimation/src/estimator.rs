@@ -79,6 +79,11 @@ impl<F: Filter<Process = LevelProcess>> Estimator<F> {
         &mut self.filter
     }
 
+    /// The filter, its clock and memory left behind.
+    pub fn into_filter(self) -> F {
+        self.filter
+    }
+
     /// The time it has reached, ns.
     pub fn now_ns(&self) -> u64 {
         self.now_ns

@@ -60,7 +60,8 @@ pub trait Filter {
     /// Goes on by a step of h seconds with this input held.
     ///
     /// # Errors
-    /// A step that is not positive; a belief that leaves the numbers, the old one being kept.
+    /// A step that is not positive; a belief that leaves the numbers or loses its covariance, the old
+    /// one being kept.
     fn predict(
         &mut self,
         input: &<Self::Process as Process>::Input,
@@ -77,7 +78,7 @@ pub trait Filter {
     ///
     /// # Errors
     /// Readings that are not finite or of the wrong number, a deviation that is not positive; a belief that leaves the
-    /// numbers, the old one being kept.
+    /// numbers or loses its covariance, the old one being kept.
     fn update(
         &mut self,
         input: &<Self::Process as Process>::Input,
@@ -105,13 +106,16 @@ pub trait Filter {
         Ok(innovation)
     }
 
-    /// Believes it if its numbers are numbers.
+    /// Believes it if its numbers are numbers and its covariance is one.
     ///
     /// # Errors
-    /// [`EstimationError::Diverged`].
+    /// [`EstimationError::Diverged`], [`EstimationError::NotPositiveDefinite`].
     fn take(&mut self, belief: Belief) -> Result<(), EstimationError> {
         if !belief.is_finite() {
             return Err(EstimationError::Diverged);
+        }
+        if belief.covariance.clone().cholesky().is_none() {
+            return Err(EstimationError::NotPositiveDefinite);
         }
         self.believe(belief);
         Ok(())

@@ -48,6 +48,8 @@ pub(crate) struct Layout {
     model_len: usize,
     /// Natural sizes of the rotors' and supply's states, in their units.
     pub(super) own_scales: Vec<f64>,
+    /// Longest step of the integrator, s.
+    pub(super) longest_step_s: f64,
 }
 
 /// A rotor's bandwidth as a scale for rates of thrust and torque, 1/s: the order of a small motor's.
@@ -56,7 +58,7 @@ const RATE_SCALE: f64 = 20.0;
 const CHARGE_SCALE_AH: f64 = 1.0;
 
 impl Layout {
-    pub(crate) fn of(model: &AnyQuadrotor<f64>) -> Self {
+    pub(crate) fn of(model: &AnyQuadrotor<f64>, longest_step_s: f64) -> Self {
         let input = model.hover_input();
         let output = model.snapshot(&input).rotors[0].output;
         let (t, q) = (output.thrust, output.torque);
@@ -73,6 +75,7 @@ impl Layout {
                 _ => Attitude::Quaternion,
             },
             model_len: model.state_len(),
+            longest_step_s,
             own_scales,
         }
     }

@@ -34,9 +34,10 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use quad_dynamics::{AnyQuadrotor, BuildError, Input, Level, PhenomenonSet, Snapshot, Vehicle};
 use quad_math::{FixedStep, Flat, Real, constant};
 
-/// Longest step of the integrator, s; longer predictions take several. A rotor's quickest pole is below 100 rad/s, where RK4 is
-/// good for 28 ms.
+/// Longest step of the integrator, s; longer predictions take several.
 const LONGEST_STEP_S: f64 = 0.01;
+/// Largest step times pole: RK4 is stable to 2.8 and good to 1 % of a decay at 1.5.
+const STEP_TIMES_POLE: f64 = 1.5;
 
 /// A level's model as a filter sees it.
 #[derive(Clone, Debug)]
@@ -55,7 +56,7 @@ fn step<R: Real>(
     input: &Input<R>,
     step_s: f64,
 ) -> Vec<R> {
-    let pieces = (step_s / LONGEST_STEP_S).ceil().max(1.0);
+    let pieces = (step_s / layout.longest_step_s).ceil().max(1.0);
     let h: R = constant(step_s / pieces);
     let d_b = layout.disturbance(x);
     let mut moved = x.to_vec();
@@ -114,7 +115,16 @@ impl LevelProcess {
             Vector3::zeros(),
             constant::<Seeded>(0.0),
         )?;
-        let layout = Layout::of(&model);
+        // The sum of a rotor's two poles is more than the quicker one.
+        let poles = vehicle
+            .rotor_dynamics
+            .as_ref()
+            .map_or(0.0, |rotor| rotor.thrust_c1);
+        let longest_step_s = match level {
+            Level::Four | Level::Five => LONGEST_STEP_S.min(STEP_TIMES_POLE / poles),
+            Level::One | Level::Two | Level::Three => LONGEST_STEP_S,
+        };
+        let layout = Layout::of(&model, longest_step_s);
         Ok(Self {
             model,
             dual,
