@@ -23,7 +23,7 @@ use crate::error::BindError;
 use crate::event::AgentEvent;
 use crate::exact::{Exact, exact, plain};
 use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, PhenomenonSet, Vehicle};
+use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, PhenomenonSet, Snapshot, Vehicle};
 use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
 use serde::{Deserialize, Serialize};
@@ -115,6 +115,12 @@ impl Quadrotor {
     /// Commands at the rotors and wind, from its latest instant on.
     pub fn input(&self) -> &Input<f64> {
         &self.input
+    }
+
+    /// Puts it in the middle of a flight: from now on it flies as if it had flown like this so far, under its present
+    /// input. What it remembers of its own flight is forgotten; for starts in motion.
+    pub fn put_in_flight(&mut self, flight: &Snapshot<f64>) {
+        self.quadrotor.adopt(flight, &self.input);
     }
 
     /// The same flight goes on at another level.
