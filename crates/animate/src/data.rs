@@ -106,12 +106,12 @@ pub(crate) struct Receiver {
 
 impl Data {
     /// The data of a scene at the rows kept.
-    pub(crate) fn new(columns: &Columns<'_>, scene: &Scene, scale: f64) -> Result<Self, AnimateError> {
+    pub(crate) fn new(columns: &Columns<'_>, scene: &Scene) -> Result<Self, AnimateError> {
         let make = |agent| Agent::new(agent, scene, columns);
         let agents: Vec<Agent> = scene.agents.iter().map(make).collect::<Result<_, _>>()?;
         Ok(Self {
             t: rounded(&columns.times_s),
-            view: View::of(agents.iter().flat_map(Agent::places), scale),
+            view: View::of(agents.iter().flat_map(Agent::places)),
             agents,
             colours: LEVEL_COLOURS,
         })
@@ -333,7 +333,7 @@ fn gaps(column: Vec<f64>) -> Vec<Option<f64>> {
 }
 
 /// The number, if it is a length that can be drawn.
-pub(crate) fn positive(what: &str, value: f64) -> Result<f64, AnimateError> {
+fn positive(what: &str, value: f64) -> Result<f64, AnimateError> {
     if value > 0.0 && value.is_finite() {
         Ok(value)
     } else {

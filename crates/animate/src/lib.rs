@@ -18,16 +18,11 @@ pub use scene::{Kind, LEVEL_COLOURS, NOMINAL_ARM_M, Scene, SceneAgent};
 pub struct Options {
     /// Rows kept at most, equally apart in number, the first and the last among them.
     pub max_frames: usize,
-    /// How many times their size bodies are drawn; positions, beams and receivers keep theirs.
-    pub body_scale: f64,
 }
 
 impl Default for Options {
-    /// 2000 rows at most (some 0.3 MB per agent), bodies in their size.
+    /// 2000 rows at most, some 0.2 MB per agent.
     fn default() -> Self {
-        Self {
-            max_frames: 2000,
-            body_scale: 1.0,
-        }
+        Self { max_frames: 2000 }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::Options;
 use crate::columns::Columns;
-use crate::data::{Data, positive};
+use crate::data::Data;
 use crate::error::AnimateError;
 use crate::scene::Scene;
 use sifre::Recording;
@@ -41,9 +41,8 @@ pub fn html(recording: &Recording, scene: &Scene, options: &Options) -> Result<S
         });
     }
     let columns = Columns::thinned(recording, options.max_frames);
-    let scale = positive("the scale of bodies", options.body_scale)?;
-    let data = Data::new(&columns, scene, scale)?;
-    let note = note(columns.times_s.len(), recording.len(), scale);
+    let data = Data::new(&columns, scene)?;
+    let note = note(columns.times_s.len(), recording.len());
     Ok(filled(&[
         ("title", &escaped(&scene.title)),
         ("note", &note),
@@ -77,15 +76,12 @@ pub(crate) fn check(recording: &Recording, scene: &Scene) -> Result<(), AnimateE
 }
 
 /// What the reader must know of the data.
-fn note(kept: usize, rows: usize, scale: f64) -> String {
-    let mut words = Vec::new();
+fn note(kept: usize, rows: usize) -> String {
     if kept < rows {
-        words.push(format!("{kept} of {rows} recorded rows"));
+        format!("{kept} of {rows} recorded rows")
+    } else {
+        String::new()
     }
-    if scale != 1.0 {
-        words.push(format!("bodies drawn {scale} times their size"));
-    }
-    words.join(", ")
 }
 
 /// The template with its places filled, each once, in one pass: what is filled in is not searched again.
@@ -138,14 +134,5 @@ mod tests {
             assert!(!text.to_lowercase().contains("</script"));
             assert!(!text.contains("eval(") && !text.contains("new Function"));
         }
-    }
-
-    #[test]
-    fn exact_notes() {
-        assert_eq!(note(10, 10, 1.0), "");
-        assert_eq!(
-            note(10, 25, 1.5),
-            "10 of 25 recorded rows, bodies drawn 1.5 times their size"
-        );
     }
 }

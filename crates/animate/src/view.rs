@@ -1,4 +1,4 @@
-//! From where the scene is seen at first, and how large things are drawn.
+//! From where the scene is seen at first, and where its ground is.
 
 use serde::Serialize;
 
@@ -18,8 +18,6 @@ pub(crate) struct View {
     centre: [f64; 2],
     /// Depth to which a camera's field of view is drawn, m.
     frustum: f64,
-    /// How many times their size bodies are drawn.
-    scale: f64,
     camera: Camera,
 }
 
@@ -33,7 +31,7 @@ struct Camera {
 
 impl View {
     /// The view of these positions in W, m. The ground is at z = 0, or below the lowest position.
-    pub(crate) fn of(places: impl Iterator<Item = [f64; 3]>, scale: f64) -> Self {
+    pub(crate) fn of(places: impl Iterator<Item = [f64; 3]>) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for place in places {
             for i in 0..3 {
@@ -52,7 +50,6 @@ impl View {
             middle: [x, y, z],
             centre: [x, y],
             frustum: 0.3 * extent,
-            scale,
             // From the south-west, so that north is to the left and away.
             camera: Camera {
                 azimuth: 215.0,
@@ -69,7 +66,7 @@ mod tests {
 
     #[test]
     fn exact_box_ground_and_centre() {
-        let view = View::of([[0.0, -3.0, -1.0], [4.0, 3.0, -2.0]].into_iter(), 1.0);
+        let view = View::of([[0.0, -3.0, -1.0], [4.0, 3.0, -2.0]].into_iter());
         assert_eq!((view.ground, view.middle), (0.0, [2.0, 0.0, -1.0]));
         // Half diagonal of a box of 4 m by 6 m by 2 m.
         assert_eq!(view.extent, 14_f64.sqrt());
@@ -77,6 +74,6 @@ mod tests {
 
     #[test]
     fn exact_the_ground_lies_below_all() {
-        assert_eq!(View::of([[0.0, 0.0, 1.5]].into_iter(), 1.0).ground, 1.5);
+        assert_eq!(View::of([[0.0, 0.0, 1.5]].into_iter()).ground, 1.5);
     }
 }

@@ -3,7 +3,7 @@
 class QuadrotorView {
     constructor(agent, scene) {
         Object.assign(this, { agent, kind: 'quadrotor', name: agent.name, groundDepth: scene.data.ground });
-        this.model = quadrotorModel({ arm: agent.arm * scene.data.scale });
+        this.model = quadrotorModel({ arm: agent.arm });
         this.position = new THREE.Vector3();
         scene.world.add(this.model.group);
         this.receivers = agent.receivers.map((receiver) => {
@@ -78,7 +78,7 @@ class StationView {
     constructor(agent, scene) {
         Object.assign(this, { agent, kind: 'ets', name: agent.name });
         this.position = new THREE.Vector3(...agent.position);
-        const parts = stationModel(agent, scene.data.ground, scene.data.scale);
+        const parts = stationModel(agent, scene.data.ground);
         this.yoke = parts.yoke;
         this.platform = new THREE.Group();
         this.platform.add(parts.head);
@@ -136,7 +136,7 @@ class TargetView {
     constructor(agent, scene) {
         Object.assign(this, { agent, kind: 'target', name: agent.name });
         this.position = new THREE.Vector3();
-        this.body = mesh(new THREE.SphereGeometry(0.1 * scene.data.scale, 24, 16), INK);
+        this.body = mesh(new THREE.SphereGeometry(0.1, 24, 16), INK);
         scene.world.add(this.body);
         if (agent.p.length > 3) {
             this.trail = wideLine(agent.p, 2, { colour: GREY });

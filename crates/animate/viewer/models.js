@@ -81,35 +81,35 @@ function receiverModel(receiver) {
 }
 
 /** Column, yoke (turns by pan), head with camera and laser (turns with the platform). */
-function stationModel(agent, groundDepth, scale) {
+function stationModel(agent, groundDepth) {
     const column = new THREE.Group();
     const height = Math.max(0.05, groundDepth - agent.position[2]);
-    const mast = mesh(new THREE.CylinderGeometry(0.035 * scale, 0.05 * scale, height, 20), '#4a4a4a');
+    const mast = mesh(new THREE.CylinderGeometry(0.035, 0.05, height, 20), '#4a4a4a');
     mast.rotation.x = Math.PI / 2;
-    mast.position.z = height / 2 + 0.06 * scale;
-    const foot = mesh(new THREE.CylinderGeometry(0.16 * scale, 0.2 * scale, 0.04 * scale, 28), '#4a4a4a');
+    mast.position.z = height / 2 + 0.06;
+    const foot = mesh(new THREE.CylinderGeometry(0.16, 0.2, 0.04, 28), '#4a4a4a');
     foot.rotation.x = Math.PI / 2;
-    foot.position.z = height - 0.02 * scale;
+    foot.position.z = height - 0.02;
     column.add(mast, foot);
 
     const yoke = new THREE.Group();
     for (const side of [-1, 1]) {
-        const cheek = mesh(new THREE.BoxGeometry(0.07 * scale, 0.02 * scale, 0.2 * scale), '#6b6b6b');
-        cheek.position.set(0, side * 0.11 * scale, 0.03 * scale);
+        const cheek = mesh(new THREE.BoxGeometry(0.07, 0.02, 0.2), '#6b6b6b');
+        cheek.position.set(0, side * 0.11, 0.03);
         yoke.add(cheek);
     }
-    const turntable = mesh(new THREE.CylinderGeometry(0.12 * scale, 0.12 * scale, 0.03 * scale, 28), '#6b6b6b');
+    const turntable = mesh(new THREE.CylinderGeometry(0.12, 0.12, 0.03, 28), '#6b6b6b');
     turntable.rotation.x = Math.PI / 2;
-    turntable.position.z = 0.135 * scale;
+    turntable.position.z = 0.135;
     yoke.add(turntable);
 
     const head = new THREE.Group();
-    const box = mesh(new THREE.BoxGeometry(0.24 * scale, 0.18 * scale, 0.16 * scale), SKY_BLUE);
-    const barrel = rod(0.12 * scale, 0.05 * scale, INK);
-    barrel.position.x += 0.1 * scale;
-    const ring = mesh(new THREE.TorusGeometry(0.05 * scale, 0.012 * scale, 8, 32), '#f7f7f7');
+    const box = mesh(new THREE.BoxGeometry(0.24, 0.18, 0.16), SKY_BLUE);
+    const barrel = rod(0.12, 0.05, INK);
+    barrel.position.x += 0.1;
+    const ring = mesh(new THREE.TorusGeometry(0.05, 0.012, 8, 32), '#f7f7f7');
     ring.rotation.y = Math.PI / 2;
-    ring.position.x = 0.22 * scale;
+    ring.position.x = 0.22;
     head.add(box, barrel, ring);
     return { column, yoke, head };
 }

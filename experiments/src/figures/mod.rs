@@ -4,6 +4,7 @@
 
 use crate::item::Item;
 
+mod appendix_a;
 mod appendix_b;
 mod appendix_c;
 mod appendix_e;
@@ -31,6 +32,7 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_5::ITEMS,
     chapter_6::ITEMS,
     chapter_7::ITEMS,
+    appendix_a::ITEMS,
     appendix_b::ITEMS,
     appendix_c::ITEMS,
     appendix_e::ITEMS,

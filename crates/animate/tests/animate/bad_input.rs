@@ -65,20 +65,9 @@ fn prop_a_station_that_stands_elsewhere_is_refused() {
 #[test]
 fn prop_options_are_checked() {
     let flight = flight();
-    let still = Options {
-        max_frames: 1,
-        ..Options::default()
-    };
+    let still = Options { max_frames: 1 };
     assert!(matches!(
         html(&flight, &scene(), &still),
         Err(AnimateError::TooFewFrames { max_frames: 1 })
-    ));
-    let flat = Options {
-        body_scale: f64::NAN,
-        ..Options::default()
-    };
-    assert!(matches!(
-        html(&flight, &scene(), &flat),
-        Err(AnimateError::NotPositive { .. })
     ));
 }

@@ -26,11 +26,7 @@ fn browser() -> Option<Browser> {
 }
 
 fn page() -> String {
-    let options = Options {
-        body_scale: 2.0,
-        ..Options::default()
-    };
-    html(&flight(), &scene(), &options).unwrap()
+    html(&flight(), &scene(), &Options::default()).unwrap()
 }
 
 /// Opens a page, runs a script as a reader would act, and gives what it returned. Nothing may be written to the console.

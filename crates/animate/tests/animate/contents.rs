@@ -65,10 +65,7 @@ fn exact_positions_and_attitudes_are_those_recorded() {
 #[test]
 fn exact_long_recordings_are_thinned_and_say_so() {
     let flight = flight();
-    let options = Options {
-        max_frames: 16,
-        ..Options::default()
-    };
+    let options = Options { max_frames: 16 };
     let page = html(&flight, &scene(), &options).unwrap();
     assert!(page.contains(&format!("16 of {} recorded rows", flight.len())));
     let t = numbers(&data(&page)["t"]);
