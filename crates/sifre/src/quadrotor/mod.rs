@@ -67,6 +67,14 @@ fn model(
     AnyQuadrotor::hovering(choice.level, vehicle, &choice.phenomena(), at, yaw)
 }
 
+/// The same hover, but with this velocity in W, m/s.
+fn set_moving(quadrotor: &mut AnyQuadrotor<f64>, velocity: Vector3<f64>) {
+    let input = quadrotor.hover_input();
+    let mut snapshot = quadrotor.snapshot(&input);
+    snapshot.body.velocity = quadrotor.flight().rotation.matrix.transpose() * velocity;
+    quadrotor.adopt(&snapshot, &input);
+}
+
 impl Quadrotor {
     /// A quadrotor in hover, ready to fly.
     ///
@@ -82,7 +90,10 @@ impl Quadrotor {
             model(&setup.vehicle, choice, setup.position(), setup.start.yaw_rad)
                 .map_err(|error| QuadrotorError::build(name(), error))
         };
-        let quadrotor = build(&setup.level)?;
+        let mut quadrotor = build(&setup.level)?;
+        if setup.velocity_m_s != [0.0; 3] {
+            set_moving(&mut quadrotor, setup.velocity_m_s.into());
+        }
         let scripted = setup.script.level.values().map(build).collect::<Result<_, _>>()?;
         Ok(Self {
             reference: Reference::hold(setup.position(), setup.start.yaw_rad),
