@@ -1,3 +1,82 @@
-//! The command line of the simulation engine.
+//! `sifre`: the command line of the simulation engine.
 
-fn main() {}
+mod disk;
+mod doctor;
+mod exit;
+mod interrupt;
+mod new;
+mod recorder;
+mod report;
+mod run;
+mod schema;
+mod varied;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use exit::{Exit, Failure};
+use std::process::ExitCode;
+
+/// Exit codes, as `--help` shows them.
+const EXIT_CODES: &str = "\
+Exit codes:
+  0    done
+  1    a flight ended early: diverged, below the ground, outside its box, target lost; or a check of `doctor` failed
+  2    bad usage or bad input: nothing was flown
+  3    an output could not be written
+  130  interrupted (Ctrl-C); what was recorded until then is whole";
+
+/// Flies scenarios: quadrotors at five levels of resolution, ground stations, targets.
+///
+/// A first flight: `sifre run scenarios/hover.toml`
+#[derive(Debug, Parser)]
+#[command(name = "sifre", version, after_help = EXIT_CODES, after_long_help = EXIT_CODES)]
+struct Arguments {
+    #[command(subcommand)]
+    what: What,
+    /// Print one JSON value on standard output instead of text.
+    #[arg(long, global = true)]
+    json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// Fly a scenario and record it.
+    Run(run::Arguments),
+    /// Write a commented scenario to start from.
+    New(new::Arguments),
+    /// Print the JSON schema of scenario files, for editors.
+    Schema,
+    /// Check that everything works here.
+    Doctor,
+    /// Print a script that completes commands in a shell: `sifre completions bash > ~/.local/share/bash-completion/completions/sifre`.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+}
+
+fn main() -> ExitCode {
+    let Arguments { what, json } = Arguments::parse();
+    let outcome = match what {
+        What::Run(arguments) => run::run(&arguments, json),
+        What::New(arguments) => new::run(&arguments, json),
+        What::Schema => schema::run(),
+        What::Doctor => doctor::run(json),
+        What::Completions { shell } => {
+            clap_complete::generate(shell, &mut Arguments::command(), "sifre", &mut std::io::stdout());
+            Ok(Exit::Done)
+        }
+    };
+    let exit = outcome.unwrap_or_else(|failure| tell(&failure, json));
+    exit.into()
+}
+
+/// Says what went wrong.
+fn tell(failure: &Failure, json: bool) -> Exit {
+    let exit = failure.exit();
+    eprintln!("error: {failure}");
+    if json {
+        report::print(&serde_json::json!({ "error": failure.to_string(), "exit_code": exit.code() }));
+    }
+    exit
+}

@@ -1,6 +1,5 @@
 //! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
 
-pub mod optimisers;
 mod condition;
 mod cost;
 mod decision;
@@ -10,6 +9,7 @@ mod fleet;
 mod ideal;
 mod mission;
 mod nominal;
+pub mod optimisers;
 mod outcome;
 mod path;
 mod problem;

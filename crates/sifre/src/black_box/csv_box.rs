@@ -9,7 +9,8 @@
 //! Times have nine decimals, exactly the nanoseconds; numbers have as many digits as bring them back bit for bit
 //! (NaN comes back as a NaN).
 
-use super::{BlackBox, BlackBoxError, Channel, Header, Recording};
+use super::recovered::LastByte;
+use super::{BlackBox, BlackBoxError, Channel, Header, Recording, Recovered};
 use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, Read, Write};
 
@@ -116,32 +117,66 @@ impl Recording {
     /// # Errors
     /// If it can't be read, or is not what a [`CsvBox`] writes; the error names the row.
     pub fn from_csv(from: impl Read) -> Result<Self, BlackBoxError> {
-        let mut from = BufReader::new(from);
+        Self::recover_csv(from)?.whole()
+    }
+
+    /// Reads what is whole of what a [`CsvBox`] wrote.
+    ///
+    /// # Errors
+    /// If there is no description of the channels.
+    pub fn recover_csv(from: impl Read) -> Result<Recovered, BlackBoxError> {
+        let mut from = BufReader::new(LastByte::new(from));
         let mut first = String::new();
         from.read_line(&mut first)?;
         let header = first.strip_prefix(COMMENT).ok_or(BlackBoxError::NoHeader {
             expected: "a first line with `# ` and the channels",
         })?;
         let mut recording = Self::new(Header::channels(header)?);
-        let mut values = vec![0.0; recording.channels().len()];
-        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(from);
-        for (k, record) in reader.records().enumerate() {
-            let (record, row) = (record?, k + 1);
-            if record.len() != values.len() + 1 {
-                return Err(BlackBoxError::RowLength {
-                    row,
-                    expected: values.len(),
-                    found: record.len().saturating_sub(1),
-                });
-            }
-            for (value, text) in values.iter_mut().zip(record.iter().skip(1)) {
-                *value = text.parse().map_err(|_| not(row, text, "number"))?;
-            }
-            let time_ns = nanoseconds(&record[0]).ok_or_else(|| not(row, &record[0], "time in s"))?;
-            recording.push(time_ns, &values)?;
-        }
-        Ok(recording)
+        let read = read_rows(&mut recording, from);
+        Ok(Recovered::of(recording, read))
     }
+}
+
+/// Reads the rows until the end or the first that is wrong.
+fn read_rows<R: Read>(recording: &mut Recording, from: BufReader<LastByte<R>>) -> Result<(), BlackBoxError> {
+    let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(from);
+    let mut values = vec![0.0; recording.channels().len()];
+    let [mut record, mut next] = [csv::StringRecord::new(), csv::StringRecord::new()];
+    let mut is_there = reader.read_record(&mut record)?;
+    for row in 1.. {
+        if !is_there {
+            break;
+        }
+        // The reader knows a record to be the last one only when it looks for the next.
+        let more = reader.read_record(&mut next);
+        if matches!(more, Ok(false)) && !reader.get_ref().get_ref().ends_with_a_line() {
+            return Err(BlackBoxError::CutOff { row });
+        }
+        read_row(recording, row, &record, &mut values)?;
+        is_there = more?;
+        std::mem::swap(&mut record, &mut next);
+    }
+    Ok(())
+}
+
+fn read_row(
+    recording: &mut Recording,
+    row: usize,
+    record: &csv::StringRecord,
+    values: &mut [f64],
+) -> Result<(), BlackBoxError> {
+    if record.len() != values.len() + 1 {
+        return Err(BlackBoxError::RowLength {
+            row,
+            expected: values.len(),
+            found: record.len().saturating_sub(1),
+        });
+    }
+    for (value, text) in values.iter_mut().zip(record.iter().skip(1)) {
+        *value = text.parse().map_err(|_| not(row, text, "number"))?;
+    }
+    let time_ns = nanoseconds(&record[0]).ok_or_else(|| not(row, &record[0], "time in s"))?;
+    recording.push(time_ns, values)
 }
 
 fn not(row: usize, text: &str, expected: &'static str) -> BlackBoxError {

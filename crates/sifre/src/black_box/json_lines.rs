@@ -7,7 +7,7 @@
 //!
 //! Numbers come back bit for bit; what JSON has no number for is written as [`Exact`] does.
 
-use super::{BlackBox, BlackBoxError, Channel, Header, Recording};
+use super::{BlackBox, BlackBoxError, Channel, Header, Recording, Recovered};
 use crate::exact::{Exact, plain};
 use serde::ser::SerializeSeq;
 use serde::{Deserialize, Serialize, Serializer};
@@ -90,16 +90,25 @@ impl Recording {
     /// # Errors
     /// If it can't be read, or is not what a [`JsonLinesBox`] writes; the error names the line.
     pub fn from_json_lines(from: impl Read) -> Result<Self, BlackBoxError> {
+        Self::recover_json_lines(from)?.whole()
+    }
+
+    /// Reads what is whole of what a [`JsonLinesBox`] wrote.
+    ///
+    /// # Errors
+    /// If there is no description of the channels.
+    pub fn recover_json_lines(from: impl Read) -> Result<Recovered, BlackBoxError> {
         let mut lines = BufReader::new(from).lines();
         let first = lines.next().transpose()?.ok_or(BlackBoxError::NoHeader {
             expected: "a first line with the channels",
         })?;
         let mut recording = Self::new(Header::channels(&first)?);
-        for (k, line) in lines.enumerate() {
+        let read = lines.enumerate().try_for_each(|(k, line)| {
+            // A line that is cut off is no JSON, since it lacks its closing brace.
             let row: ReadRow =
                 serde_json::from_str(&line?).map_err(|source| BlackBoxError::Json { line: k + 2, source })?;
-            recording.push(row.time_ns, &plain(&row.values))?;
-        }
-        Ok(recording)
+            recording.push(row.time_ns, &plain(&row.values))
+        });
+        Ok(Recovered::of(recording, read))
     }
 }

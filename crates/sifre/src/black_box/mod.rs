@@ -15,6 +15,8 @@ mod memory;
 #[cfg(feature = "parquet")]
 mod parquet_box;
 mod recording;
+mod recovered;
+mod selected;
 #[cfg(test)]
 mod tests;
 
@@ -25,6 +27,8 @@ pub use memory::MemoryBox;
 #[cfg(feature = "parquet")]
 pub use parquet_box::ParquetBox;
 pub use recording::{Recording, Row};
+pub use recovered::Recovered;
+pub use selected::{Selected, Selection};
 
 use serde::{Deserialize, Serialize};
 use std::any::Any;
@@ -94,6 +98,20 @@ pub enum BlackBoxError {
         expected: usize,
         /// How many it has.
         found: usize,
+    },
+    /// A last row without the end of its line: its last number may lack digits.
+    #[error("row {row} of the recording is cut off; the rows before it are whole")]
+    CutOff {
+        /// The row, from 1.
+        row: usize,
+    },
+    /// A selection that selects nothing.
+    #[error("no channel is called \"{pattern}\"; there are {known}")]
+    NothingSelected {
+        /// The pattern that fits no channel.
+        pattern: String,
+        /// The first of the channels there are.
+        known: String,
     },
     /// Something that is no number.
     #[error("row {row} of the recording: \"{text}\" is not a {expected}")]

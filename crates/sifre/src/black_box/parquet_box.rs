@@ -4,7 +4,7 @@
 //! little from compression, and every reader understands it. Rows are collected to row groups of at most
 //! [`ROW_GROUP_BYTES`] in memory.
 
-use super::{BlackBox, BlackBoxError, Channel, Header, Recording};
+use super::{BlackBox, BlackBoxError, Channel, Header, Recording, Recovered};
 use parquet::basic::{Compression, Repetition, Type as Physical};
 use parquet::column::reader::get_typed_column_reader;
 use parquet::data_type::{DataType, DoubleType, Int64Type};
@@ -173,6 +173,14 @@ impl Recording {
     /// # Errors
     /// If it can't be read, or is not what a [`ParquetBox`] writes.
     pub fn from_parquet<C: ChunkReader + 'static>(from: C) -> Result<Self, BlackBoxError> {
+        Self::recover_parquet(from)?.whole()
+    }
+
+    /// Reads the row groups that are whole of what a [`ParquetBox`] wrote.
+    ///
+    /// # Errors
+    /// If the file's end, which describes it, is missing or wrong.
+    pub fn recover_parquet<C: ChunkReader + 'static>(from: C) -> Result<Recovered, BlackBoxError> {
         let reader = SerializedFileReader::new(from)?;
         let metadata = reader.metadata().file_metadata();
         let header = metadata
@@ -192,23 +200,30 @@ impl Recording {
                 found: columns.saturating_sub(1),
             });
         }
-        let mut row = vec![0.0; width];
-        for group in 0..reader.num_row_groups() {
+        let groups = reader.num_row_groups();
+        let read = (0..groups).try_for_each(|group| {
             let group = reader.get_row_group(group)?;
-            let times = read_column::<Int64Type>(group.as_ref(), 0)?;
-            let mut values = Vec::with_capacity(width);
-            for column in 1..=width {
-                values.push(read_column::<DoubleType>(group.as_ref(), column)?);
-            }
-            for (k, &time) in times.iter().enumerate() {
-                for (to, column) in row.iter_mut().zip(&values) {
-                    *to = column[k];
-                }
-                recording.push(time.cast_unsigned(), &row)?;
-            }
-        }
-        Ok(recording)
+            read_group(&mut recording, group.as_ref())
+        });
+        Ok(Recovered::of(recording, read))
     }
+}
+
+/// Adds the rows of a row group, all of them or none.
+fn read_group(recording: &mut Recording, group: &dyn RowGroupReader) -> Result<(), BlackBoxError> {
+    let width = recording.channels().len();
+    let times = read_column::<Int64Type>(group, 0)?;
+    let values: Vec<_> = (1..=width)
+        .map(|column| read_column::<DoubleType>(group, column))
+        .collect::<Result<_, _>>()?;
+    let mut row = vec![0.0; width];
+    for (k, &time) in times.iter().enumerate() {
+        for (to, column) in row.iter_mut().zip(&values) {
+            *to = column[k];
+        }
+        recording.push(time.cast_unsigned(), &row)?;
+    }
+    Ok(())
 }
 
 fn read_column<T: DataType>(group: &dyn RowGroupReader, column: usize) -> Result<Vec<T::T>, BlackBoxError> {

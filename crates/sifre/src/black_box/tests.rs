@@ -149,6 +149,61 @@ fn exact_wrong_files_are_errors_that_say_where() {
     ));
 }
 
+proptest! {
+    /// However much of the file is lost: the rows before the cut come back bit for bit, and no other.
+    #[test]
+    fn prop_what_is_whole_is_recovered((width, rows) in rows(), cut in 0.0..1.0_f64) {
+        let mut csv = CsvBox::new(Vec::new());
+        write(&mut csv, width, &rows);
+        let mut json = JsonLinesBox::new(Vec::new());
+        write(&mut json, width, &rows);
+        let recover: [(Vec<u8>, usize, fn(&[u8]) -> Result<Recovered, BlackBoxError>); 2] = [
+            (csv.into_inner().unwrap(), 2, |text| Recording::recover_csv(text)),
+            (json.into_inner().unwrap(), 1, |text| Recording::recover_json_lines(text)),
+        ];
+        for (text, heading, recover) in recover {
+            let ends: Vec<usize> = (0..text.len()).filter(|&i| text[i] == b'\n').map(|i| i + 1).collect();
+            let (from, to) = (ends[heading - 1], text.len());
+            let at = from + ((to - from) as f64 * cut) as usize;
+            let whole = ends.iter().filter(|&&end| end <= at).count() - heading;
+            let recovered = recover(&text[..at]).unwrap();
+            // JSON needs no end of line to be known as whole.
+            let closed = text[..at].last() == Some(&b'}');
+            let expected = whole + usize::from(closed && heading == 1);
+            prop_assert!(same(&recovered.recording, width, &rows[..expected]));
+            let is_cut = at != ends[whole + heading - 1] && !(closed && heading == 1);
+            prop_assert_eq!(recovered.damage.is_some(), is_cut);
+        }
+    }
+}
+
+/// A row group whose pages are wrong does not take the ones before it along.
+#[cfg(feature = "parquet")]
+#[test]
+fn exact_parquet_is_recovered_by_row_groups() {
+    let mut parquet = ParquetBox::new(Vec::new());
+    parquet.begin(&channels(1)).unwrap();
+    for k in 0..600_000_u32 {
+        parquet.record(u64::from(k), &[f64::from(k)]).unwrap();
+    }
+    let mut file = parquet.into_inner().unwrap();
+    // 524288 rows of 16 bytes are in the first group; the second one's header of its first page follows.
+    let second = 524_288 * 16;
+    let end = second + 20_000;
+    file[second..end].fill(0xff);
+    let recovered = Recording::recover_parquet(::bytes::Bytes::from(file.clone())).unwrap();
+    assert_eq!(recovered.recording.len(), 524_288);
+    assert!(
+        matches!(recovered.damage, Some(BlackBoxError::Parquet(_))),
+        "{:?}",
+        recovered.damage
+    );
+
+    file.truncate(second);
+    let error = Recording::recover_parquet(::bytes::Bytes::from(file)).unwrap_err();
+    assert!(matches!(error, BlackBoxError::Parquet(_)));
+}
+
 /// A disk that is full after so many bytes.
 struct Full(usize);
 

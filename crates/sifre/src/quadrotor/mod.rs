@@ -96,6 +96,14 @@ fn hover_draw(model: &AnyQuadrotor<f64>) -> f64 {
     (hovering.snapshot(&input).charge_drawn - model.snapshot(&input).charge_drawn) / DRAW_STEP_S
 }
 
+/// The same hover, but with this velocity in W, m/s.
+fn set_moving(quadrotor: &mut AnyQuadrotor<f64>, velocity: Vector3<f64>) {
+    let input = quadrotor.hover_input();
+    let mut snapshot = quadrotor.snapshot(&input);
+    snapshot.body.velocity = quadrotor.flight().rotation.matrix.transpose() * velocity;
+    quadrotor.adopt(&snapshot, &input);
+}
+
 impl Quadrotor {
     /// A quadrotor in hover, ready to fly.
     ///
@@ -113,7 +121,10 @@ impl Quadrotor {
             model(&setup.vehicle, choice.level, &phenomena, at, yaw)
                 .map_err(|error| QuadrotorError::build(name(), error))
         };
-        let quadrotor = build(&setup.level)?;
+        let mut quadrotor = build(&setup.level)?;
+        if setup.velocity_m_s != [0.0; 3] {
+            set_moving(&mut quadrotor, setup.velocity_m_s.into());
+        }
         let scripted = setup.script.choices().map(build).collect::<Result<Vec<_>, _>>()?;
         let models = std::iter::once(&quadrotor).chain(&scripted);
         let hover_draw = models.map(hover_draw).fold(0.0, f64::max);

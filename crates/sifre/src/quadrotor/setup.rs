@@ -168,6 +168,8 @@ pub struct Setup {
     pub level: LevelChoice,
     /// Where it begins.
     pub start: Start,
+    /// Velocity in W that it begins with, m/s; level and with the rotors of hover all the same.
+    pub velocity_m_s: [f64; 3],
     /// Who commands the rotors.
     pub pilot: Box<dyn Pilot>,
     /// What it is asked to do.
@@ -195,6 +197,7 @@ impl Setup {
             vehicle: Arc::clone(vehicle),
             level: level.into(),
             start: Start::default(),
+            velocity_m_s: [0.0; 3],
             pilot: Box::new(pilot),
             guidance: Box::new(guidance),
             script: Script::default(),
@@ -206,7 +209,9 @@ impl Setup {
     /// The quantities that must be finite.
     pub(super) fn check_numbers(&self) -> Result<(), QuadrotorError> {
         let [x, y, z] = self.start.position_m;
-        if let Some(value) = [x, y, z, self.start.yaw_rad].into_iter().find(|x| !x.is_finite()) {
+        let [u, v, w] = self.velocity_m_s;
+        let start = [x, y, z, self.start.yaw_rad, u, v, w];
+        if let Some(value) = start.into_iter().find(|x| !x.is_finite()) {
             let name = self.name.clone();
             return Err(QuadrotorError::BadStart { name, value });
         }
@@ -267,7 +272,7 @@ pub enum QuadrotorError {
         source: Box<ControllerError>,
     },
     /// A start that isn't finite.
-    #[error("quadrotor \"{name}\": it can't start at {value}: position and heading must be finite")]
+    #[error("quadrotor \"{name}\": it can't start at {value}: position, heading and velocity must be finite")]
     BadStart {
         /// The agent.
         name: String,

@@ -1,0 +1,172 @@
+//! From a scenario to agents.
+
+mod controller;
+mod guidance;
+mod quadrotor;
+mod start;
+mod station;
+
+pub(crate) use guidance::Task;
+
+use crate::error::ScenarioError;
+use crate::file::{Law, OutputFile, Scenario, StopFile};
+use crate::library::Files;
+use ets::Station;
+use nalgebra::Vector3;
+use quad_dynamics::{Level, Vehicle};
+use sifre::black_box::Selection;
+use sifre::{Member, StepSize};
+use std::sync::Arc;
+
+/// What may not be in a name: it separates keys and columns.
+const FORBIDDEN: [char; 6] = ['.', ',', '"', '\n', '\r', '*'];
+
+/// The agents of a scenario, and what is to happen to them.
+#[derive(Debug)]
+pub struct Built {
+    /// The agents with their steps.
+    pub members: Vec<Member>,
+    /// What there is to know about them, in the same order.
+    pub agents: Vec<AgentInfo>,
+    /// How long it lasts, s.
+    pub duration_s: f64,
+    /// What ends it before.
+    pub stop: StopFile,
+    /// What is recorded.
+    pub output: OutputFile,
+    /// Where quadrotors are to end up, in W, m; those whose references end.
+    pub(crate) goals: Vec<Goal>,
+    /// What may surprise, in words.
+    pub notes: Vec<String>,
+}
+
+/// Where a quadrotor is to end up.
+#[derive(Clone, Debug)]
+pub(crate) struct Goal {
+    pub(crate) agent: String,
+    pub(crate) position: Vector3<f64>,
+    /// From when on it is asked to be there, s.
+    pub(crate) from_s: f64,
+}
+
+/// What an animation or a report needs to know about an agent.
+#[derive(Clone, Debug)]
+pub struct AgentInfo {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub kind: AgentKind,
+}
+
+/// What an agent is.
+#[derive(Clone, Debug)]
+pub enum AgentKind {
+    /// A quadrotor.
+    Quadrotor {
+        /// Its vehicle, with its geometry.
+        vehicle: Arc<Vehicle>,
+        /// The level that it begins at.
+        level: Level,
+        /// Who flies it; never [`Law::Paired`].
+        law: Law,
+    },
+    /// An energy transmission system.
+    Ets {
+        /// The station, with its geometry.
+        station: Box<Station>,
+        /// Name of the agent that it tracks.
+        tracks: String,
+    },
+    /// A target.
+    Target,
+}
+
+impl Scenario {
+    /// Makes the agents. Files that the scenario names are read by `files`; give `&()` if it names none.
+    ///
+    /// # Errors
+    /// Anything that can't be: a vehicle that isn't there, a controller above its level, waypoints that go back in time.
+    /// Whether agents look at others that are there is seen by [`Built::fly`].
+    pub fn build(&self, files: &dyn Files) -> Result<Built, ScenarioError> {
+        self.check()?;
+        let mut built = Built {
+            members: Vec::new(),
+            agents: Vec::new(),
+            duration_s: self.duration_s,
+            stop: self.stop.clone(),
+            output: self.output.clone(),
+            goals: Vec::new(),
+            notes: Vec::new(),
+        };
+        for file in &self.quadrotor {
+            quadrotor::add(&mut built, self, file, files)?;
+        }
+        for (k, file) in self.ets.iter().enumerate() {
+            station::add(&mut built, self.seed.wrapping_add(k as u64), file, files)?;
+        }
+        for file in &self.target {
+            station::add_target(&mut built, file)?;
+        }
+        Ok(built)
+    }
+
+    /// What concerns the scenario as a whole.
+    fn check(&self) -> Result<(), ScenarioError> {
+        let duration_s = self.duration_s;
+        StepSize::from_seconds(duration_s)
+            .map_err(|source| ScenarioError::Duration { duration_s, source })?;
+        let bad = |name: &&str| name.trim().is_empty() || name.contains(FORBIDDEN);
+        if let Some(name) = self.names().find(bad) {
+            let name = name.to_owned();
+            return Err(ScenarioError::Name { name });
+        }
+        let stop = &self.stop;
+        let corners = stop
+            .outside
+            .iter()
+            .flat_map(|b| b.from_m.into_iter().chain(b.to_m));
+        for value in corners.chain([stop.ground_height_m]) {
+            finite("stop", "a length", value)?;
+        }
+        match stop.arrived_within_m {
+            Some(value) if !(value.is_finite() && value > 0.0) => Err(ScenarioError::Number {
+                agent: "stop".to_owned(),
+                key: "arrived_within_m",
+                value,
+                must: "positive and finite",
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Names of all agents, in the order of the file's kinds.
+    fn names(&self) -> impl Iterator<Item = &str> {
+        let quadrotors = self.quadrotor.iter().map(|agent| agent.name.as_str());
+        let stations = self.ets.iter().map(|agent| agent.name.as_str());
+        let targets = self.target.iter().map(|agent| agent.name.as_str());
+        quadrotors.chain(stations).chain(targets)
+    }
+}
+
+impl Built {
+    /// Which channels are recorded.
+    #[must_use]
+    pub fn selection(&self) -> Selection {
+        Selection {
+            patterns: self.output.channels.clone(),
+        }
+    }
+}
+
+/// Refuses NaN and infinities.
+fn finite(agent: &str, key: &'static str, value: f64) -> Result<(), ScenarioError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(ScenarioError::Number {
+        agent: agent.to_owned(),
+        key,
+        value,
+        must: "finite",
+    })
+}

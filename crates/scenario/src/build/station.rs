@@ -1,0 +1,84 @@
+//! Ground stations and targets.
+
+use super::{AgentInfo, AgentKind, Built, finite};
+use crate::error::ScenarioError;
+use crate::file::{EtsFile, PathFile, TargetFile};
+use crate::library::{Files, station, station_error};
+use quad_ndi::{Trajectory, Waypoint};
+use sifre::{Ets, EtsSetup, Member, Path, Target};
+
+/// Adds a station to what is built.
+pub(super) fn add(
+    built: &mut Built,
+    seed: u64,
+    file: &EtsFile,
+    files: &dyn Files,
+) -> Result<(), ScenarioError> {
+    let mut station = station(&file.name, &file.station, files)?;
+    if let Some(position_m) = file.position_m {
+        station.pedestal.position = position_m;
+    }
+    if let Some(heading_deg) = file.heading_deg {
+        station.pedestal.heading = heading_deg.to_radians();
+    }
+    if let Some(noise_px) = file.noise_px {
+        station.frames.noise = noise_px;
+    }
+    if let Some(power_w) = file.power_w {
+        station.beam.power = power_w;
+    }
+    station
+        .validate(&format!("{} as \"{}\"", file.station, file.name))
+        .map_err(|source| station_error(&file.name, source))?;
+    let agent = format!("ets \"{}\"", file.name);
+    finite(&agent, "pan_deg", file.pan_deg)?;
+    finite(&agent, "tilt_deg", file.tilt_deg)?;
+    let setup = EtsSetup {
+        name: file.name.clone(),
+        target: file.tracks.clone(),
+        station: station.clone(),
+        pan_rad: file.pan_deg.to_radians(),
+        tilt_rad: file.tilt_deg.to_radians(),
+        seed,
+    };
+    built.members.push(Member::new(Ets::new(setup), file.step_s));
+    built.agents.push(AgentInfo {
+        name: file.name.clone(),
+        kind: AgentKind::Ets {
+            station: Box::new(station),
+            tracks: file.tracks.clone(),
+        },
+    });
+    Ok(())
+}
+
+/// Adds a target to what is built.
+pub(super) fn add_target(built: &mut Built, file: &TargetFile) -> Result<(), ScenarioError> {
+    let agent = format!("target \"{}\"", file.name);
+    let path = match &file.path {
+        PathFile::Fixed { position_m, yaw_deg } => {
+            for &value in position_m.iter().chain([yaw_deg]) {
+                finite(&agent, "a number of the path", value)?;
+            }
+            Path::Fixed {
+                position: (*position_m).into(),
+                yaw: yaw_deg.to_radians(),
+            }
+        }
+        PathFile::Waypoints { waypoints } => {
+            let waypoints: Vec<Waypoint> = waypoints.iter().map(Waypoint::from).collect();
+            let trajectory = Trajectory::through(&waypoints);
+            Path::Scripted(trajectory.map_err(|source| ScenarioError::Trajectory {
+                agent: file.name.clone(),
+                source,
+            })?)
+        }
+    };
+    let target = Target::new(file.name.clone(), path);
+    built.members.push(Member::new(target, file.step_s));
+    built.agents.push(AgentInfo {
+        name: file.name.clone(),
+        kind: AgentKind::Target,
+    });
+    Ok(())
+}

@@ -1,0 +1,204 @@
+//! Why a scenario can't be read, built or changed.
+
+use crate::read::Place;
+use quad_ndi::{ControllerError, TrajectoryError};
+use sifre::quadrotor::QuadrotorError;
+use sifre::{GridError, ScheduleError, SimulationError};
+
+/// Why a scenario can't be read or built.
+#[derive(Debug, thiserror::Error)]
+pub enum ScenarioError {
+    /// Not TOML.
+    #[error("{place}: not TOML: {message}")]
+    Syntax {
+        /// Where.
+        place: Place,
+        /// What the parser says.
+        message: String,
+    },
+    /// A key that must be there is not.
+    #[error("{place}: the key `{key}` is missing")]
+    MissingKey {
+        /// Where.
+        place: Place,
+        /// The key.
+        key: String,
+    },
+    /// A key that nobody knows.
+    #[error("{place}: there is no key `{key}`; {expected}")]
+    UnknownKey {
+        /// Where.
+        place: Place,
+        /// The key.
+        key: String,
+        /// The keys there are.
+        expected: String,
+    },
+    /// A value that its key can't have.
+    #[error("{place}: `{key}`: {message}")]
+    Value {
+        /// Where.
+        place: Place,
+        /// The key.
+        key: String,
+        /// Why not.
+        message: String,
+    },
+    /// A duration that the clock doesn't have.
+    #[error("duration_s = {duration_s}: the end must come after the start: {source}")]
+    Duration {
+        /// The duration, s.
+        duration_s: f64,
+        /// Why not.
+        source: GridError,
+    },
+    /// A name that can't be part of a channel's.
+    #[error(
+        "\"{name}\" can't be an agent's name: it must not be empty and must have no dots, commas, quotes or line breaks"
+    )]
+    Name {
+        /// The name.
+        name: String,
+    },
+    /// A vehicle or station file that isn't there.
+    #[error("agent \"{agent}\" has {kind} \"{wanted}\", which is {reason}; known by name: {known}")]
+    NoFile {
+        /// The agent.
+        agent: String,
+        /// What it should be: `vehicle` or `station`.
+        kind: &'static str,
+        /// What it asks for.
+        wanted: String,
+        /// Why it can't be had.
+        reason: String,
+        /// Those that come with the project.
+        known: String,
+    },
+    /// A vehicle file that is wrong.
+    #[error("agent \"{agent}\": {source}")]
+    Vehicle {
+        /// The agent.
+        agent: String,
+        /// Why.
+        source: Box<quad_dynamics::VehicleError>,
+    },
+    /// A station file that is wrong.
+    #[error("agent \"{agent}\": {source}")]
+    Station {
+        /// The agent.
+        agent: String,
+        /// Why.
+        source: Box<ets::StationError>,
+    },
+    /// A parameter that the vehicle file doesn't have.
+    #[error("agent \"{agent}\", parameters.{key}: {reason}")]
+    Parameter {
+        /// The agent.
+        agent: String,
+        /// The key.
+        key: String,
+        /// Why it can't be set.
+        reason: String,
+    },
+    /// Settings that no controller can have.
+    #[error("quadrotor \"{agent}\", controller: {source}")]
+    Controller {
+        /// The agent.
+        agent: String,
+        /// Why.
+        source: Box<ControllerError>,
+    },
+    /// Waypoints that make no trajectory.
+    #[error("agent \"{agent}\": {source}")]
+    Trajectory {
+        /// The agent.
+        agent: String,
+        /// Why.
+        source: TrajectoryError,
+    },
+    /// A list in time that is wrong.
+    #[error("quadrotor \"{agent}\", {key}: {source}")]
+    Schedule {
+        /// The agent.
+        agent: String,
+        /// Which list.
+        key: &'static str,
+        /// Why.
+        source: ScheduleError,
+    },
+    /// A list that must not be empty.
+    #[error("quadrotor \"{agent}\", {key}: give at least one")]
+    Empty {
+        /// The agent.
+        agent: String,
+        /// Which list.
+        key: &'static str,
+    },
+    /// A number outside what it may be.
+    #[error("{agent}: {key} = {value}: it must be {must}")]
+    Number {
+        /// Whose, in words.
+        agent: String,
+        /// Which.
+        key: &'static str,
+        /// What it was.
+        value: f64,
+        /// What it must be.
+        must: &'static str,
+    },
+    /// A follower whose start doesn't follow from anything.
+    #[error(
+        "quadrotor \"{agent}\" follows \"{leader}\", from which no start follows: name an agent with a start, or give `start`"
+    )]
+    NoStart {
+        /// The agent.
+        agent: String,
+        /// Whom it follows.
+        leader: String,
+    },
+    /// A quadrotor that can't be.
+    #[error(transparent)]
+    Quadrotor(#[from] QuadrotorError),
+    /// A simulation that can't be.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
+
+/// Why a key of a scenario can't be set.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum KeyError {
+    /// A path without keys.
+    #[error("\"{path}\" is not a key: write it as in `quadrotor.alpha.level`")]
+    Empty {
+        /// The path.
+        path: String,
+    },
+    /// A list has no such entry.
+    #[error("`{path}`: there is no `{entry}` in `{list}`, which has {known}")]
+    NoEntry {
+        /// The path.
+        path: String,
+        /// The entry.
+        entry: String,
+        /// The list.
+        list: String,
+        /// Entries that there are.
+        known: String,
+    },
+    /// A key below something that has none.
+    #[error("`{path}`: `{value}` is a value and has no keys below it")]
+    NotATable {
+        /// The path.
+        path: String,
+        /// The key of the value.
+        value: String,
+    },
+    /// A key that isn't there.
+    #[error("`{path}`: there is no `{key}`")]
+    NoKey {
+        /// The path.
+        path: String,
+        /// The key.
+        key: String,
+    },
+}

@@ -1,0 +1,78 @@
+//! The scenario file: the TOML schema as types. Units are in the keys; unknown keys are errors.
+
+mod controller;
+mod output;
+mod quadrotor;
+mod reference;
+mod station;
+
+pub use controller::{AttitudeFile, ControllerFile, Law, LoopFile, PID, POSITION};
+pub use output::{BoxLimits, Format, OutputFile, StopFile};
+pub use quadrotor::{CommandOffset, LevelChange, QuadrotorFile, StartFile, WindFile, WindStep};
+pub use reference::{Circle, Point, Polynomial, ReferenceFile, SetPoint};
+pub use station::{EtsFile, PathFile, TargetFile};
+
+use crate::error::ScenarioError;
+use crate::read;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A scenario: what flies, where, how, for how long.
+///
+/// World axes are north, east and down with the origin on the ground, so a height of 2 m is z = -2. Headings are in
+/// degrees clockwise from north.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "sifre scenario")]
+pub struct Scenario {
+    /// Name, as reports and plots print it.
+    pub name: String,
+    /// What it shows, in a sentence or two.
+    #[serde(default)]
+    pub description: String,
+    /// How long it lasts, s.
+    pub duration_s: f64,
+    /// Seed of everything random.
+    #[serde(default)]
+    pub seed: u64,
+    /// Quadrotors.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub quadrotor: Vec<QuadrotorFile>,
+    /// Energy transmission systems: ground stations that track an agent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ets: Vec<EtsFile>,
+    /// Targets, which stand still or move as a script says.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub target: Vec<TargetFile>,
+    /// What ends the run before its time.
+    #[serde(default)]
+    pub stop: StopFile,
+    /// What is recorded, where and how often.
+    #[serde(default)]
+    pub output: OutputFile,
+}
+
+impl Scenario {
+    /// Reads the text of a scenario file; `origin` is the file's name in messages.
+    ///
+    /// # Errors
+    /// Not TOML, a missing or unknown key, or a value of the wrong type, each with line, column and key path. Whether the
+    /// scenario can be flown is seen when it is [built](crate::Scenario::build).
+    pub fn from_toml_str(text: &str, origin: &str) -> Result<Self, ScenarioError> {
+        read::scenario(text, origin)
+    }
+
+    /// Reads a scenario whose keys were [changed](crate::set); `origin` is its name in messages.
+    ///
+    /// # Errors
+    /// As [`Scenario::from_toml_str`]; there is no line to tell.
+    pub fn from_table(table: &toml::Table, origin: &str) -> Result<Self, ScenarioError> {
+        read::table(table, origin)
+    }
+
+    /// The JSON schema of scenario files, for editors.
+    #[must_use]
+    pub fn json_schema() -> serde_json::Value {
+        schemars::schema_for!(Self).to_value()
+    }
+}

@@ -1,0 +1,134 @@
+//! Vehicles and stations by name, or from files that somebody else reads.
+
+use crate::error::ScenarioError;
+use ets::Station;
+use quad_dynamics::Vehicle;
+use quad_dynamics::vehicle::builtin::{CRAZYFLIE_TOML, QBALL_X4_TOML, QBALL_X4_VENDOR_TOML};
+use std::collections::BTreeMap;
+use toml::{Table, Value};
+
+/// The vehicles that come with the project: name and file.
+pub const VEHICLES: [(&str, &str); 3] = [
+    ("qball-x4", QBALL_X4_TOML),
+    ("qball-x4-vendor", QBALL_X4_VENDOR_TOML),
+    ("crazyflie", CRAZYFLIE_TOML),
+];
+
+/// The stations that come with the project: name and file.
+pub const STATIONS: [(&str, &str); 1] = [("nominal", ets::station::NOMINAL_TOML)];
+
+/// Whoever can read files. This crate reads none by itself.
+pub trait Files {
+    /// The text of the file that a scenario names.
+    ///
+    /// # Errors
+    /// Why it can't be had.
+    fn text(&self, name: &str) -> Result<String, std::io::Error>;
+}
+
+/// No files: only what comes with the project.
+impl Files for () {
+    fn text(&self, _name: &str) -> Result<String, std::io::Error> {
+        Err(std::io::ErrorKind::NotFound.into())
+    }
+}
+
+/// Files in memory.
+impl Files for BTreeMap<String, String> {
+    fn text(&self, name: &str) -> Result<String, std::io::Error> {
+        self.get(name)
+            .cloned()
+            .ok_or_else(|| std::io::ErrorKind::NotFound.into())
+    }
+}
+
+/// The text behind a name, which is that of something that comes with the project, or of a file.
+fn text(
+    agent: &str,
+    kind: &'static str,
+    wanted: &str,
+    known: &[(&str, &str)],
+    files: &dyn Files,
+) -> Result<String, ScenarioError> {
+    if let Some((_, text)) = known.iter().find(|(name, _)| *name == wanted) {
+        return Ok((*text).to_owned());
+    }
+    files.text(wanted).map_err(|error| {
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        ScenarioError::NoFile {
+            agent: agent.to_owned(),
+            kind,
+            wanted: wanted.to_owned(),
+            reason: format!("neither known nor a file that can be read ({error})"),
+            known: names.join(", "),
+        }
+    })
+}
+
+/// The vehicle of an agent, with these parameters other than in its file.
+pub(crate) fn vehicle(
+    agent: &str,
+    wanted: &str,
+    parameters: &Table,
+    files: &dyn Files,
+) -> Result<Vehicle, ScenarioError> {
+    let mut text = text(agent, "vehicle", wanted, &VEHICLES, files)?;
+    let refuse = |source| ScenarioError::Vehicle {
+        agent: agent.to_owned(),
+        source: Box::new(source),
+    };
+    if parameters.is_empty() {
+        return Vehicle::from_toml_str(&text, wanted).map_err(refuse);
+    }
+    // The file as it is must be sound first, so that an error in it is told with its line.
+    Vehicle::from_toml_str(&text, wanted).map_err(refuse)?;
+    let mut file: Table = toml::from_str(&text).unwrap_or_default();
+    change(agent, &mut file, parameters, "")?;
+    text = toml::to_string(&file).unwrap_or(text);
+    Vehicle::from_toml_str(&text, &format!("{wanted} with the scenario's parameters")).map_err(refuse)
+}
+
+/// Takes over parameters into a vehicle file: numbers take the place of values, tables are gone into.
+fn change(agent: &str, file: &mut Table, parameters: &Table, above: &str) -> Result<(), ScenarioError> {
+    for (key, wanted) in parameters {
+        let path = if above.is_empty() {
+            key.clone()
+        } else {
+            format!("{above}.{key}")
+        };
+        let refuse = |reason: String| ScenarioError::Parameter {
+            agent: agent.to_owned(),
+            key: path.clone(),
+            reason,
+        };
+        let known = || file.keys().cloned().collect::<Vec<_>>().join(", ");
+        let reason = format!("the vehicle file has no such key; it has {}", known());
+        match (file.get_mut(key), wanted) {
+            (Some(Value::Table(sourced)), value) if sourced.contains_key("value") => {
+                sourced.insert("value".to_owned(), value.clone());
+                sourced.insert("source".to_owned(), Value::from("the scenario"));
+                sourced.remove("standard_error");
+            }
+            (Some(Value::Table(below)), Value::Table(parameters)) => {
+                change(agent, below, parameters, &path)?;
+            }
+            (Some(Value::Table(_)), _) => return Err(refuse("it is a table: set a key of it".to_owned())),
+            (Some(_), _) => return Err(refuse("only numbers with a source can be set".to_owned())),
+            (None, _) => return Err(refuse(reason)),
+        }
+    }
+    Ok(())
+}
+
+/// The station of an agent.
+pub(crate) fn station(agent: &str, wanted: &str, files: &dyn Files) -> Result<Station, ScenarioError> {
+    let text = text(agent, "station", wanted, &STATIONS, files)?;
+    Station::from_toml_str(&text, wanted).map_err(|source| station_error(agent, source))
+}
+
+pub(crate) fn station_error(agent: &str, source: ets::StationError) -> ScenarioError {
+    ScenarioError::Station {
+        agent: agent.to_owned(),
+        source: Box::new(source),
+    }
+}

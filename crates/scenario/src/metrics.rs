@@ -1,0 +1,176 @@
+//! A flight in a few numbers, summed up while it flies.
+//!
+//! ```text
+//! rms error    √(1/N Σ |r − r_d|²)          over the rows
+//! energy       Σ ½ (P_k + P_k−1) (t_k − t_k−1)   trapezium
+//! tilt         acos(cos φ cos θ)
+//! ```
+
+use sifre::black_box::Channel;
+use sifre::{BlackBox, BlackBoxError};
+
+/// A number that sums up a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Metric {
+    /// Name with its agent's before and the unit at its end: `alpha.position_error_rms_m`.
+    pub name: String,
+    /// The number.
+    pub value: f64,
+}
+
+/// A black box that keeps sums instead of rows.
+#[derive(Debug, Default)]
+pub struct MetricsBox {
+    quadrotors: Vec<Quadrotor>,
+    stations: Vec<Station>,
+    last_s: Option<f64>,
+    rows: u32,
+}
+
+/// Columns and sums of a quadrotor.
+#[derive(Debug)]
+struct Quadrotor {
+    name: String,
+    position: [usize; 3],
+    reference: [usize; 3],
+    tilt: [usize; 2],
+    squares: f64,
+    largest_error: f64,
+    final_error: f64,
+    largest_tilt: f64,
+    least_height: f64,
+}
+
+/// Columns and sums of a station.
+#[derive(Debug)]
+struct Station {
+    name: String,
+    powers: [usize; POWERS.len()],
+    mode: usize,
+    last: [f64; POWERS.len()],
+    energies: [f64; POWERS.len()],
+    tracked_rows: u32,
+}
+
+/// Powers of a station's recording that are integrated, and what their integrals are called.
+const POWERS: [(&str, &str); 3] = [
+    ("power.received", "received_energy_j"),
+    ("power.missed", "missed_energy_j"),
+    ("power.electrical", "electrical_energy_j"),
+];
+
+/// A station's mode while it tracks, in recordings.
+const TRACKING: f64 = 2.0;
+
+impl MetricsBox {
+    /// The numbers, agent by agent.
+    #[must_use]
+    pub fn metrics(&self) -> Vec<Metric> {
+        let mut all = Vec::new();
+        let mut push = |agent: &str, what: &str, value: f64| {
+            let name = format!("{agent}.{what}");
+            all.push(Metric { name, value });
+        };
+        let rows = f64::from(self.rows.max(1));
+        for q in &self.quadrotors {
+            push(&q.name, "position_error_rms_m", (q.squares / rows).sqrt());
+            push(&q.name, "position_error_max_m", q.largest_error);
+            push(&q.name, "position_error_final_m", q.final_error);
+            push(&q.name, "tilt_max_deg", q.largest_tilt.to_degrees());
+            push(&q.name, "height_min_m", q.least_height);
+        }
+        for s in &self.stations {
+            for ((_, energy), value) in POWERS.iter().zip(s.energies) {
+                push(&s.name, energy, value);
+            }
+            push(&s.name, "tracked_fraction", f64::from(s.tracked_rows) / rows);
+        }
+        all
+    }
+}
+
+impl BlackBox for MetricsBox {
+    fn begin(&mut self, channels: &[Channel]) -> Result<(), BlackBoxError> {
+        let place = |name: String| channels.iter().position(|channel| channel.name == name);
+        for channel in channels {
+            if let Some(name) = channel.name.strip_suffix(".reference.position.x") {
+                self.quadrotors.extend(Quadrotor::of(name, &place));
+            }
+            if let Some(name) = channel.name.strip_suffix(".power.received") {
+                self.stations.extend(Station::of(name, &place));
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, time_ns: u64, row: &[f64]) -> Result<(), BlackBoxError> {
+        let time_s = time_ns as f64 * 1e-9;
+        let since_s = self.last_s.map(|last| time_s - last);
+        self.quadrotors.iter_mut().for_each(|q| q.add(row));
+        self.stations.iter_mut().for_each(|s| s.add(row, since_s));
+        self.last_s = Some(time_s);
+        self.rows += 1;
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), BlackBoxError> {
+        Ok(())
+    }
+}
+
+impl Quadrotor {
+    fn of(name: &str, place: &impl Fn(String) -> Option<usize>) -> Option<Self> {
+        let xyz = |what: &str| {
+            let [x, y, z] = ["x", "y", "z"].map(|axis| place(format!("{name}.{what}.{axis}")));
+            Some([x?, y?, z?])
+        };
+        Some(Self {
+            name: name.to_owned(),
+            position: xyz("position")?,
+            reference: xyz("reference.position")?,
+            tilt: [
+                place(format!("{name}.attitude.roll"))?,
+                place(format!("{name}.attitude.pitch"))?,
+            ],
+            squares: 0.0,
+            largest_error: 0.0,
+            final_error: 0.0,
+            largest_tilt: 0.0,
+            least_height: f64::INFINITY,
+        })
+    }
+
+    fn add(&mut self, row: &[f64]) {
+        let difference = |i: usize| row[self.position[i]] - row[self.reference[i]];
+        let square: f64 = (0..3).map(|i| difference(i).powi(2)).sum();
+        self.squares += square;
+        self.final_error = square.sqrt();
+        self.largest_error = self.largest_error.max(self.final_error);
+        let [roll, pitch] = self.tilt.map(|place| row[place]);
+        self.largest_tilt = self.largest_tilt.max((roll.cos() * pitch.cos()).acos());
+        self.least_height = self.least_height.min(-row[self.position[2]]);
+    }
+}
+
+impl Station {
+    fn of(name: &str, place: &impl Fn(String) -> Option<usize>) -> Option<Self> {
+        let [received, missed, electrical] = POWERS.map(|(power, _)| place(format!("{name}.{power}")));
+        Some(Self {
+            name: name.to_owned(),
+            powers: [received?, missed?, electrical?],
+            mode: place(format!("{name}.mode"))?,
+            last: [0.0; POWERS.len()],
+            energies: [0.0; POWERS.len()],
+            tracked_rows: 0,
+        })
+    }
+
+    fn add(&mut self, row: &[f64], since_s: Option<f64>) {
+        for (k, place) in self.powers.into_iter().enumerate() {
+            let power = row[place];
+            self.energies[k] += 0.5 * (power + self.last[k]) * since_s.unwrap_or(0.0);
+            self.last[k] = power;
+        }
+        self.tracked_rows += u32::from(row[self.mode] == TRACKING);
+    }
+}

@@ -1,0 +1,237 @@
+//! The ready scenarios: all fly to their end, and each does what it says.
+
+use crate::support::{Flown, fly, ready};
+use scenario::End;
+
+fn done(name: &str) -> Flown {
+    let flown = fly(&ready(name));
+    assert_eq!(
+        flown.ending.end,
+        End::Done,
+        "{name}: {}",
+        flown.ending.report.status
+    );
+    flown
+}
+
+fn distance(flown: &Flown, one: &str, other: &str, time_s: f64) -> f64 {
+    let square = |axis: &str| {
+        let at = |agent: &str| flown.at(&format!("{agent}.position.{axis}"), time_s);
+        (at(one) - at(other)).powi(2)
+    };
+    ["x", "y", "z"]
+        .iter()
+        .map(|axis| square(axis))
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// Hover needs weight, no more: four equal thrusts that add up to it.
+#[test]
+fn exact_hover_carries_the_weight() {
+    let flown = done("hover");
+    let vehicle = quad_dynamics::Vehicle::qball_x4();
+    let weight = vehicle.airframe.mass * vehicle.environment.gravity;
+    let thrust: f64 = (1..=4)
+        .map(|rotor| flown.last(&format!("alpha.thrust.{rotor}")))
+        .sum();
+    // It sinks by millimetres as the battery does, at accelerations far below 1e-4 g.
+    assert!(
+        (thrust / weight - 1.0).abs() < 1e-4,
+        "{thrust} N instead of {weight} N"
+    );
+    // c3 believes in a linear rotor, so it hangs off its set point; not far.
+    assert!((flown.last("alpha.position.z") + 2.0).abs() < 0.1);
+}
+
+/// c3 on its own model is its design: `e = p/(…)` of third order, whose second-order part settles to 2 % in 2 s.
+#[test]
+fn exact_step_in_height_settles_in_its_time() {
+    let flown = done("step-in-height");
+    // The extra pole at 20 ω and the held commands (1 ms) delay by some hundredths of a second.
+    assert!((flown.at("alpha.position.z", 3.1) + 2.0).abs() < 0.02);
+    assert!(
+        (flown.at("alpha.position.z", 2.8) + 2.0).abs() > 0.02,
+        "but not much earlier"
+    );
+    let highest = flown.column("alpha.position.z").into_iter().fold(0.0, f64::min);
+    assert!(highest > -2.0 - 1e-6, "critically damped: no overshoot");
+}
+
+#[test]
+fn prop_horizontal_step_arrives() {
+    let flown = done("horizontal-step");
+    assert!(
+        (flown.last("alpha.position.x") - 2.0).abs() < 0.04,
+        "2 % of the step"
+    );
+    // It leans towards where it goes: nose down for north at heading 0.
+    assert!(flown.at("alpha.attitude.pitch", 1.3) < -0.01);
+    assert!(flown.last("alpha.position.y").abs() < 1e-3);
+}
+
+/// On a helix of radius ρ with Ω the tilt is `atan(ρ Ω² / g)`, and the height follows the climb.
+#[test]
+fn exact_helix() {
+    let flown = done("helix");
+    let rate = std::f64::consts::TAU / 8.0;
+    let tilt = (2.0 * rate * rate / 9.81_f64).atan().to_degrees();
+    let last = |channel: &str| flown.last(&format!("alpha.{channel}"));
+    let found = (last("attitude.roll").cos() * last("attitude.pitch").cos())
+        .acos()
+        .to_degrees();
+    // The feed-forward is exact in continuous time; commands are held for 1 ms and g is given to three digits.
+    assert!((found / tilt - 1.0).abs() < 0.01, "{found}° instead of {tilt}°");
+    let radius = last("position.x").hypot(last("position.y"));
+    assert!((radius - 2.0).abs() < 0.01, "{radius}");
+    assert!((last("position.z") + 3.5).abs() < 0.01);
+}
+
+#[test]
+fn prop_waypoints_home_before_the_end() {
+    let flown = done("waypoints");
+    let end = flown.ending.report.time_s;
+    assert!((20.0..24.0).contains(&end), "{end}");
+    assert!(distance_to(&flown, "alpha", [0.0, 0.0, -2.0]) < 0.1);
+    // Each corner is met but for the drag that the references leave out.
+    assert!((flown.at("alpha.position.x", 10.0) - 3.0).abs() < 0.1);
+    assert!((flown.at("alpha.position.y", 10.0) - 3.0).abs() < 0.1);
+}
+
+fn distance_to(flown: &Flown, agent: &str, place: [f64; 3]) -> f64 {
+    let axes = ["x", "y", "z"].iter().zip(place);
+    let square = |(axis, at): (&&str, f64)| (flown.last(&format!("{agent}.position.{axis}")) - at).powi(2);
+    axes.map(square).sum::<f64>().sqrt()
+}
+
+#[test]
+fn prop_gust_pushes_south_and_it_comes_back() {
+    let flown = done("gust");
+    assert!(flown.at("alpha.position.x", 4.0) < -0.05);
+    assert_eq!(flown.at("alpha.wind.x", 3.0), -6.0);
+    assert!(flown.last("alpha.position.x").abs() < 0.02);
+}
+
+#[test]
+fn prop_the_crazyflie_flies_with_gains_from_its_file() {
+    let flown = done("crazyflie");
+    assert!(distance_to(&flown, "cf", [0.0, 1.0, -1.0]) < 0.1);
+    assert!((flown.last("cf.attitude.yaw") - std::f64::consts::FRAC_PI_2).abs() < 0.05);
+    assert!(flown.metric("cf.position_error_max_m") < 0.3);
+}
+
+/// A surplus weight `Δm g` hangs c3 off by `Δm g / (m ω²)` of its belief; the integral of PID leaves nothing.
+#[test]
+fn exact_payload() {
+    let flown = done("payload");
+    // Height settles in 2 s: ω = 5.8339 / 2 s.
+    let vehicle = quad_dynamics::Vehicle::qball_x4();
+    let surplus = (1.6 - vehicle.airframe.mass) * vehicle.environment.gravity;
+    let sag = surplus / (vehicle.airframe.mass * (5.8339_f64 / 2.0).powi(2));
+    let found = flown.last("ndi.position.z") + 2.0;
+    assert!((found / sag - 1.0).abs() < 0.01, "{found} m instead of {sag} m");
+    let left = flown.last("pid.position.z") + 2.0;
+    // 30 s are several times the integral's slowest time constant k_p / k_i = 27 s? No: what is left falls with it.
+    assert!(left.abs() < 0.5 * sag, "{left} m");
+}
+
+#[test]
+fn prop_level_changes_without_a_jump() {
+    let flown = done("level-change");
+    assert_eq!(flown.at("alpha.level", 3.9), 5.0);
+    assert_eq!(flown.at("alpha.level", 5.0), 2.0);
+    assert_eq!(flown.last("alpha.level"), 5.0);
+    let (x, v) = (flown.column("alpha.position.x"), flown.column("alpha.velocity.x"));
+    for k in 1..x.len() {
+        // Trapezium over 10 ms: h³/12 times a jerk of some m/s³; a jump would be centimetres.
+        let step = 0.005 * (v[k] + v[k - 1]);
+        assert!((x[k] - x[k - 1] - step).abs() < 1e-4, "row {k}");
+    }
+    assert!(distance_to(&flown, "alpha", [0.0, 0.0, -2.0]) < 0.2);
+}
+
+/// A target that stands comes to the middle of the image and stays.
+#[test]
+fn exact_the_fixed_target_comes_to_the_middle() {
+    let flown = done("track-fixed");
+    // 6 s are thirty of the tracker's time constants.
+    assert!(flown.last("station.image.x").abs() < 0.1 && flown.last("station.image.y").abs() < 0.1);
+    // The receiver is 0.2 m north of the target's position (5, 2, -1.5), which stands with heading 0.
+    let pan = 2.0_f64.atan2(5.2);
+    let tilt = 1.5_f64.atan2(5.2_f64.hypot(2.0));
+    assert!((flown.last("station.gimbal.pan") - pan).abs() < 1e-4);
+    assert!((flown.last("station.gimbal.tilt") - tilt).abs() < 1e-4);
+}
+
+#[test]
+fn prop_the_view_is_lost_and_found() {
+    let flown = done("lost-view");
+    let events: Vec<_> = flown
+        .flight
+        .simulation
+        .events()
+        .iter()
+        .map(|event| &event.what)
+        .collect();
+    use sifre::AgentEvent::{TargetFound, TargetLost};
+    assert_eq!(events.first(), Some(&&TargetFound));
+    assert!(events.contains(&&TargetLost), "{events:?}");
+    assert_eq!(events.last(), Some(&&TargetFound));
+    assert!(flown.last("station.image.x").abs() < 20.0);
+    // The cables' limit.
+    let limit = 170.0_f64.to_radians();
+    assert!(
+        flown
+            .column("station.gimbal.pan")
+            .iter()
+            .all(|pan| pan.abs() <= limit + 1e-9)
+    );
+}
+
+/// The pass: energy in means tracked and within reach, and half the speed is about twice the energy.
+#[test]
+fn prop_power_transmission_passes() {
+    let energy = ["power-transmission-10s", "power-transmission-20s"].map(|name| {
+        let flown = done(name);
+        assert!(distance_to(&flown, "alpha", [4.0, 5.0, -3.0]) < 0.1, "{name}");
+        assert!(flown.metric("station.tracked_fraction") > 0.9, "{name}");
+        // The nose follows the bearing of the station.
+        let bearing = (-flown.last("alpha.position.y")).atan2(-flown.last("alpha.position.x"));
+        let off = flown.last("alpha.attitude.yaw") - bearing;
+        assert!((off.sin().atan2(off.cos())).abs() < 0.05, "{name}: {off}");
+        flown.metric("station.received_energy_j")
+    });
+    // No more than the laser gives.
+    assert!(energy[0] > 5.0 && energy[0] < 50.0, "{energy:?}");
+    let ratio = energy[1] / energy[0];
+    assert!((1.6..2.6).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn prop_two_quadrotors_are_tracked_alike() {
+    let flown = done("two-quadrotors");
+    for (agent, y) in [("alpha", 3.0), ("bravo", 15.0)] {
+        assert!(distance_to(&flown, agent, [4.0, y, -2.0]) < 0.15, "{agent}");
+    }
+    for station in ["station-a", "station-b"] {
+        assert!(flown.metric(&format!("{station}.tracked_fraction")) > 0.9);
+        assert!(flown.metric(&format!("{station}.received_energy_j")) > 0.0);
+    }
+    assert_eq!((flown.last("alpha.level"), flown.last("bravo.level")), (1.0, 5.0));
+}
+
+/// Followers don't know the leader's acceleration, `ρ Ω²`: at their loop's frequency they cut its corner by about
+/// `ρ Ω² / ω²`, 0.22 m, and keep their distance within that.
+#[test]
+fn prop_the_swarm_keeps_together() {
+    let flown = done("swarm");
+    for follower in ["north", "east", "south", "west"] {
+        for time_s in [10.0, 15.0, 20.0] {
+            let apart = distance(&flown, "leader", follower, time_s);
+            assert!(
+                (apart - 1.5).abs() < 0.25,
+                "{follower} is {apart} m away at {time_s} s"
+            );
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Ctrl-C: the first asks the run to end, so that files are whole; the second ends the program at once.
+
+use crate::exit::Exit;
+use sifre::Progress;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Listens for Ctrl-C from now on.
+pub(crate) fn listen() {
+    // A handler that can't be set leaves Ctrl-C as it was.
+    let _ = ctrlc::set_handler(|| {
+        if ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(Exit::Interrupted.code().into());
+        }
+    });
+}
+
+/// Whether Ctrl-C was pressed.
+pub(crate) fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}
+
+/// Whether a run is to go on.
+pub(crate) fn flow() -> ControlFlow<()> {
+    if asked() {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
+}
+
+/// An observer that ends a run when asked.
+pub(crate) fn watch() -> impl FnMut(&Progress) -> ControlFlow<()> {
+    |_| flow()
+}

@@ -1,0 +1,97 @@
+//! What a flight did, for people and for machines.
+
+use crate::exit::Exit;
+use scenario::{Ending, Metric};
+use serde_json::{Map, Value, json};
+use sifre::Event;
+use std::io::Write;
+
+/// What a flight did.
+#[derive(Debug)]
+pub(crate) struct Report {
+    /// Name of the scenario.
+    pub(crate) scenario: String,
+    /// How it ended.
+    pub(crate) ending: Ending,
+    /// What happened.
+    pub(crate) events: Vec<Event>,
+    /// The flight in a few numbers.
+    pub(crate) metrics: Vec<Metric>,
+    /// What may surprise.
+    pub(crate) notes: Vec<String>,
+    /// Where it is recorded.
+    pub(crate) output: Option<String>,
+    /// Time that it took, s.
+    pub(crate) wall_s: f64,
+}
+
+/// Prints a value on standard output; a pipe that is closed is no error of ours.
+pub(crate) fn print(value: &Value) {
+    let _ = writeln!(std::io::stdout(), "{value:#}");
+}
+
+/// Metrics as a JSON object.
+pub(crate) fn object(metrics: &[Metric]) -> Value {
+    let entries = metrics.iter().map(|m| (m.name.clone(), Value::from(m.value)));
+    Value::Object(entries.collect::<Map<_, _>>())
+}
+
+impl Report {
+    /// How the program is to end.
+    pub(crate) fn exit(&self) -> Exit {
+        self.ending.end.into()
+    }
+
+    /// For machines.
+    pub(crate) fn json(&self) -> Value {
+        let report = &self.ending.report;
+        json!({
+            "scenario": self.scenario,
+            "end": report.status.to_string(),
+            "time_s": report.time_s,
+            "agent_steps": report.agent_steps,
+            "wall_s": self.wall_s,
+            "events": self.events,
+            "metrics": object(&self.metrics),
+            "notes": self.notes,
+            "output": self.output,
+            "exit_code": self.exit().code(),
+        })
+    }
+
+    /// For people.
+    pub(crate) fn text(&self) -> String {
+        let report = &self.ending.report;
+        let rate = if self.wall_s > 0.0 {
+            report.time_s / self.wall_s
+        } else {
+            0.0
+        };
+        let mut text = format!(
+            "{}: {} at {} s ({:.3} s of computing, {rate:.0} times real time)\n",
+            self.scenario, report.status, report.time_s, self.wall_s
+        );
+        for event in &self.events {
+            let time_s = event.time_ns as f64 * 1e-9;
+            text += &format!("  {time_s:9.3} s  {}: {}\n", event.agent, in_words(event));
+        }
+        for metric in &self.metrics {
+            text += &format!("  {:40} {:>12.6}\n", metric.name, metric.value);
+        }
+        if let Some(output) = &self.output {
+            text += &format!("recorded in {output}\n");
+        }
+        text
+    }
+}
+
+fn in_words(event: &Event) -> String {
+    match &event.what {
+        sifre::AgentEvent::LevelChanged { from, to } => {
+            format!("level {} to level {}", from.number(), to.number())
+        }
+        sifre::AgentEvent::TargetLost => "target lost".to_owned(),
+        sifre::AgentEvent::TargetFound => "target found".to_owned(),
+        sifre::AgentEvent::Note { text } => text.to_string(),
+    }
+}

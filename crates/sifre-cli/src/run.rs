@@ -1,0 +1,130 @@
+//! `sifre run`: flies a scenario and records it.
+
+use crate::disk::Beside;
+use crate::exit::{Exit, Failure};
+use crate::report::{self, Report};
+use crate::varied::{Setting, Template, setting};
+use crate::{interrupt, recorder};
+use indicatif::{ProgressBar, ProgressStyle};
+use scenario::{Files, Flight, MetricsBox, Scenario};
+use sifre::{Event, Observer, Progress};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Arguments of `sifre run`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// The scenario.
+    scenario: PathBuf,
+    /// Where to record, instead of where the scenario says; .csv, .parquet or .jsonl.
+    #[arg(long, short)]
+    out: Option<String>,
+    /// Record nothing.
+    #[arg(long, conflicts_with = "out")]
+    no_output: bool,
+    /// Set a key of the scenario: `--set quadrotor.alpha.level=5`. May be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    settings: Vec<Setting>,
+    /// No progress bar.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Flies a scenario.
+pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    let template = Template::read(&arguments.scenario)?;
+    let mut scenario = template.with(&arguments.settings)?;
+    if let Some(out) = &arguments.out {
+        scenario.output.path = Some(out.clone());
+        scenario.output.format = None;
+    }
+    if arguments.no_output {
+        scenario.output.path = None;
+    }
+    interrupt::listen();
+    let bar = if arguments.quiet || json {
+        ProgressBar::hidden()
+    } else {
+        progress_bar(scenario.duration_s)
+    };
+    let report = fly(&scenario, &Beside::of(&arguments.scenario), &bar)?;
+    bar.finish_and_clear();
+    for note in &report.notes {
+        eprintln!("note: {note}");
+    }
+    if json {
+        report::print(&report.json());
+    } else {
+        print!("{}", report.text());
+    }
+    if report.exit() != Exit::Done {
+        eprintln!("error: {}", report.ending.report.status);
+    }
+    Ok(report.exit())
+}
+
+/// Flies a scenario to its end and records it where it says.
+fn fly(scenario: &Scenario, files: &dyn Files, bar: &ProgressBar) -> Result<Report, Failure> {
+    let built = scenario.build(files)?;
+    let (selection, notes) = (built.selection(), built.notes.clone());
+    let mut flight = built.fly()?;
+    let (step, path) = (flight.output.step_s, flight.output.path.clone());
+    if let Some(path) = &path {
+        let format = scenario.output.form();
+        recorder::attach(&mut flight.simulation, Path::new(path), format, step, selection)?;
+    }
+    let metrics = flight.simulation.attach(step, MetricsBox::default())?;
+    let begin = Instant::now();
+    let ending = flight.run(&mut Bar { bar })?;
+    let wall_s = begin.elapsed().as_secs_f64();
+    let metrics = flight.simulation.detach::<MetricsBox>(metrics);
+    let metrics = metrics
+        .and_then(Result::ok)
+        .map_or_else(Vec::new, |m| m.metrics());
+    finish(&mut flight, path.as_deref(), ending.end)?;
+    Ok(Report {
+        scenario: scenario.name.clone(),
+        ending,
+        events: flight.simulation.events().to_vec(),
+        metrics,
+        notes,
+        output: path,
+        wall_s,
+    })
+}
+
+/// Completes the recording; one that failed before has been told of.
+fn finish(flight: &mut Flight, path: Option<&str>, end: scenario::End) -> Result<(), Failure> {
+    match (flight.simulation.finish_recordings(), path) {
+        (Err(source), Some(path)) if end != scenario::End::RecordingFailed => Err(Failure::Recording {
+            path: path.into(),
+            source,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// A bar of simulated milliseconds with the time left.
+fn progress_bar(duration_s: f64) -> ProgressBar {
+    let bar = ProgressBar::new((duration_s * 1e3) as u64);
+    let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}  {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar
+}
+
+/// Shows progress, and ends the run at Ctrl-C.
+struct Bar<'a> {
+    bar: &'a ProgressBar,
+}
+
+impl Observer for Bar<'_> {
+    fn progress(&mut self, progress: &Progress) -> ControlFlow<()> {
+        self.bar.set_position((progress.time_s * 1e3) as u64);
+        interrupt::flow()
+    }
+
+    fn event(&mut self, event: &Event) {
+        self.bar.set_message(event.agent.clone());
+    }
+}
