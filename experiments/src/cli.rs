@@ -11,6 +11,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::claim::{Claim, Expected};
 use crate::figures;
+use crate::identify::Coverage;
 use crate::item::{Context, Item, Make, repository_root};
 use crate::run::{self, Options, References};
 use crate::summary::{Record, Status};
@@ -69,7 +70,23 @@ enum Chore {
         /// Folder of the output, instead of target/identify.
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Repeats the identification over so many seeds, counts the intervals that contain the truth, and writes nothing.
+        #[arg(long, value_name = "SEEDS", value_parser = clap::value_parser!(u32).range(1..))]
+        coverage: Option<u32>,
     },
+}
+
+fn coverage(seed: u64, runs: u32) -> ExitCode {
+    match Coverage::count(&Context::new(repository_root(), false), seed, runs) {
+        Ok(counted) => {
+            print!("{counted}");
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(DIFFERS)
+        }
+    }
 }
 
 fn identify(seed: u64, out: Option<PathBuf>) -> ExitCode {
@@ -90,8 +107,13 @@ fn identify(seed: u64, out: Option<PathBuf>) -> ExitCode {
 /// Runs the program and returns its exit code.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    if let Some(Chore::Identify { seed, out }) = arguments.chore {
-        return identify(seed, out);
+    if let Some(Chore::Identify {
+        seed,
+        out,
+        coverage: runs,
+    }) = arguments.chore
+    {
+        return runs.map_or_else(|| identify(seed, out), |runs| coverage(seed, runs));
     }
     let known = figures::all();
     let items = match select(&known, &arguments.ids, &arguments.chapter) {

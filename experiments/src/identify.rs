@@ -1,5 +1,9 @@
 //! The virtual laboratory's vehicle identified from its raw measurements: files, report and the claims of figure 6.14.
 
+mod coverage;
+
+pub use coverage::Coverage;
+
 use crate::figures;
 use crate::item::{Context, ItemError};
 use crate::plot::{Figure, Panel, series_style};
@@ -25,25 +29,51 @@ pub struct Outcome {
     pub out: PathBuf,
 }
 
+/// The vehicle that is measured, and what is taken as known about it.
+struct Subject {
+    nominal: VehicleFile,
+    truth: VehicleFile,
+    vehicle: Vehicle,
+}
+
+impl Subject {
+    fn new(context: &Context) -> Result<Self, ItemError> {
+        let path = context.data(crate::flight::NOMINAL_VEHICLE);
+        let text =
+            fs::read_to_string(&path).map_err(|e| ItemError::new(format!("{}: {e}", path.display())))?;
+        let nominal = VehicleFile::from_toml_str(&text, crate::flight::NOMINAL_VEHICLE)?;
+        let mut truth = nominal.clone();
+        truth.airframe.centre_of_mass_m.value = TRUE_CENTRE_OF_MASS_M;
+        let vehicle = Vehicle::from_file(&truth, "the true vehicle")?;
+        Ok(Self {
+            nominal,
+            truth,
+            vehicle,
+        })
+    }
+
+    /// Measurements with the noise of a seed, and what is identified from them.
+    fn identified(&self, seed: u64) -> Result<(Measurements, Identified), ItemError> {
+        let measurements = VirtualLaboratory::new(figures::flight_settings())
+            .measure(&self.vehicle, seed)
+            .map_err(|e| ItemError::new(e.to_string()))?;
+        let found = identify(&measurements, &self.nominal).map_err(|e| ItemError::new(e.to_string()))?;
+        Ok((measurements, found))
+    }
+}
+
 /// Measures the true vehicle in the virtual laboratory, identifies it, flies it, and writes everything below `out`.
 ///
 /// # Errors
 /// Files that can't be read or written; an identification or a flight that is refused.
 pub fn run(context: &Context, seed: u64, out: &Path) -> Result<Outcome, ItemError> {
-    let path = context.data(crate::flight::NOMINAL_VEHICLE);
-    let text = fs::read_to_string(&path).map_err(|e| ItemError::new(format!("{}: {e}", path.display())))?;
-    let nominal = VehicleFile::from_toml_str(&text, crate::flight::NOMINAL_VEHICLE)?;
-    let mut truth = nominal.clone();
-    truth.airframe.centre_of_mass_m.value = TRUE_CENTRE_OF_MASS_M;
-    let vehicle = Vehicle::from_file(&truth, "the true vehicle")?;
-    let measurements = VirtualLaboratory::new(figures::flight_settings())
-        .measure(&vehicle, seed)
-        .map_err(|e| ItemError::new(e.to_string()))?;
-    let found = identify(&measurements, &nominal).map_err(|e| ItemError::new(e.to_string()))?;
+    let subject = Subject::new(context)?;
+    let (measurements, found) = subject.identified(seed)?;
+    let truth = &subject.truth;
     let identified = Vehicle::from_file(&found.file, "the identified vehicle")?;
     let claims = figures::claims_of_figure_6_14(&identified)?;
 
-    let mut report = report(&found, &truth, seed)?;
+    let mut report = report(&found, truth, seed)?;
     let _ = writeln!(report, "\n## Figure 6.14 with the identified vehicle\n");
     for claim in &claims {
         let verdict = if claim.holds { "holds" } else { "DOES NOT HOLD" };

@@ -128,7 +128,7 @@ fn path(phase: f64) -> impl Iterator<Item = [f64; 3]> {
 }
 
 fn space() -> Svg {
-    Space::new("*x*, m", "*y*, m", "Height −*z*, m")
+    Space::new("North *x*, m", "West −*y*, m", "Height −*z*, m")
         .line("reference", reference_style(), path(0.0))
         .line("NDI", controller_style(Controller::Ndi), path(0.1))
         .line("PID", controller_style(Controller::Pid), path(0.25))

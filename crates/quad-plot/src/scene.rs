@@ -267,3 +267,39 @@ fn label_look(size: f64, outwards: (f64, f64)) -> TextLook {
         ..TextLook::default()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Seen from above, the way from the first axis to the second is counter-clockwise, whatever the azimuth: right-handed.
+    #[test]
+    fn exact_the_axes_are_right_handed() {
+        for azimuth_deg in [-150.0, -62.0, 10.0, 110.0] {
+            let view = View {
+                azimuth_deg,
+                elevation_deg: 40.0,
+            };
+            let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            let space = Space::new("x", "y", "up").view(view).line("", EDGE, corners);
+            let area = Area {
+                origin: at(0.0, 0.0),
+                size: (400.0, 400.0),
+            };
+            let scene = Scene::new(&space, area);
+            let [o, x, y, up] = corners.map(|p| scene.project(p));
+            // The page's y points down, so a counter-clockwise turn has a negative cross product.
+            let cross = (x.x - o.x) * (y.y - o.y) - (x.y - o.y) * (y.x - o.x);
+            assert!(cross < 0.0 && up.y < o.y, "{azimuth_deg}: {cross}");
+        }
+    }
+
+    /// A left turn flown from north to west (heading falling, z down) is counter-clockwise from above in the picture as well.
+    #[test]
+    fn exact_a_left_turn_of_a_frame_with_z_down_stays_one() {
+        let north = Space::of_z_down(1.0, 0.0, -2.0);
+        let west = Space::of_z_down(0.0, -1.0, -2.0);
+        assert_eq!((north, west), ([1.0, 0.0, 2.0], [0.0, 1.0, 2.0]));
+        assert!(north[0] * west[1] - north[1] * west[0] > 0.0);
+    }
+}

@@ -14,7 +14,8 @@ pub type Point3 = [f64; 3];
 
 /// Three axes and what is drawn between them.
 ///
-/// The vertical axis points up: give heights, that is −z of a frame whose z axis points down.
+/// The vertical axis points up and the axes are drawn right-handed. A frame whose z axis points down is so pictured by
+/// [`Space::of_z_down`]: `[x, −y, −z]`, north-west-up for north-east-down. With `[x, y, −z]` every turn would be shown the other way round.
 #[derive(Clone, Debug)]
 pub struct Space {
     /// Words above the picture. Rich text.
@@ -89,6 +90,11 @@ impl Space {
             shadows: true,
             layers: Vec::new(),
         }
+    }
+
+    /// A point of a frame whose z axis points down (north-east-down, forward-right-down) in right-handed axes that point up.
+    pub const fn of_z_down(x: f64, y: f64, z: f64) -> Point3 {
+        [x, -y, -z]
     }
 
     /// Adds a line and its shadow.

@@ -29,7 +29,7 @@ const BEYOND: f64 = 1.45;
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let test = supports::test(context, supports::perfect_rig())?;
     let truth = test.vehicle.airframe.centre_of_mass;
-    let mut space = Space::new("Forward *x*_{B}, mm", "Right *y*_{B}, mm", "Up −*z*_{B}, mm")
+    let mut space = Space::new("Forward *x*_{B}, mm", "Left −*y*_{B}, mm", "Up −*z*_{B}, mm")
         .equal_aspect()
         .without_shadows();
     let mut sideways = 0.0_f64;

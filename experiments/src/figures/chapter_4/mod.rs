@@ -26,6 +26,7 @@ mod pendulums;
 mod propeller;
 mod propeller_panels;
 mod replays;
+mod support_pictures;
 mod supports;
 mod table_4_1;
 mod table_4_2;

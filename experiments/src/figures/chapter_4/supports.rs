@@ -4,10 +4,12 @@ use super::bench;
 use crate::data::{Cell, DataTable};
 use crate::flight::NOMINAL_VEHICLE;
 use crate::item::{Context, ItemError};
+use crate::plot::Space;
 use crate::plot::space::Point3;
 use nalgebra::Vector3;
 use quad_dynamics::Vehicle;
 use serde::Serialize;
+use std::ops::RangeInclusive;
 use sysid::centre_of_mass::{CentreOfMass, Placing, locate};
 use sysid::laboratory::supports::{SupportRig, Triangle, icosahedral_cage};
 use sysid::laboratory::{Sensor, generator};
@@ -74,6 +76,37 @@ pub(super) fn test(context: &Context, rig: SupportRig) -> Result<SupportTest, It
     })
 }
 
+/// Tests with other noise that are counted.
+pub(super) const COUNTED: u64 = 100;
+/// Shares of 95 % intervals that a count of a hundred shows: three standard deviations (2.2 %) below, and none above.
+pub(super) const EXPECTED: RangeInclusive<f64> = 0.88..=1.0;
+
+/// Share of tests with other noise whose intervals contain the truth: of the weight, and of the centre of mass (300 intervals).
+pub(super) struct Coverage {
+    pub(super) weight: f64,
+    pub(super) centre: f64,
+}
+
+/// Counts over [`COUNTED`] tests.
+pub(super) fn coverage(context: &Context) -> Result<Coverage, ItemError> {
+    let vehicle = bench::vehicle(context)?;
+    let truth = vehicle.airframe.centre_of_mass;
+    let weight = vehicle.airframe.mass * vehicle.environment.gravity;
+    let (mut of_weight, mut of_centre) = (0_u32, 0_u32);
+    for repetition in 1..=COUNTED {
+        let noise = &mut generator(SEED + 100 * repetition);
+        let placings = SupportRig::default().measure(&vehicle, &triangles(), noise)?;
+        let found = locate(&placings)?;
+        of_weight += u32::from(found.weight.interval().contains(weight));
+        let inside = (0..3).filter(|&i| found.position[i].interval().contains(truth[i]));
+        of_centre += inside.count() as u32;
+    }
+    Ok(Coverage {
+        weight: f64::from(of_weight) / COUNTED as f64,
+        centre: f64::from(of_centre) / (3 * COUNTED) as f64,
+    })
+}
+
 /// The placings in the columns that [`Placing`] reads.
 pub(super) fn table(placings: &[Placing]) -> DataTable {
     let mut columns = vec!["orientation".to_owned()];
@@ -92,9 +125,9 @@ pub(super) fn table(placings: &[Placing]) -> DataTable {
     data
 }
 
-/// A point of the airframe in a picture whose third axis points up, in millimetres.
+/// A point of the airframe in a picture with right-handed axes forward, left, up, in millimetres.
 pub(super) fn pictured(p: &Vector3<f64>) -> Point3 {
-    [1e3 * p.x, 1e3 * p.y, -1e3 * p.z]
+    Space::of_z_down(1e3 * p.x, 1e3 * p.y, 1e3 * p.z)
 }
 
 /// The twelve edges of the box of half sides `reach` about a point.

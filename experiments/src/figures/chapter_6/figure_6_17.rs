@@ -48,13 +48,15 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
     let dots = trajectory
         .waypoints()
         .iter()
-        .map(|w| [w.position_m[0], w.position_m[1], -w.position_m[2]]);
-    let space = Space::new("North *x*, m", "East *y*, m", "Height −*z*, m")
-        .view(paths::VIEW)
+        .map(|w| w.position_m)
+        .map(|[x, y, z]| Space::of_z_down(x, y, z));
+    let space = paths::empty_space()
         .line(
             "reference",
             reference_style().dashed(""),
-            points.iter().map(|p| [p.position.x, p.position.y, -p.position.z]),
+            points
+                .iter()
+                .map(|p| Space::of_z_down(p.position.x, p.position.y, p.position.z)),
         )
         .markers("waypoints", series_style(1), dots);
     let over_time = |values: &[f64]| times.iter().copied().zip(values.to_vec()).collect::<Vec<_>>();

@@ -29,7 +29,7 @@ pub(super) fn waypoints() -> Vec<Waypoint> {
 }
 
 /// From where the loop is seen open.
-pub(super) const VIEW: View = View {
+const VIEW: View = View {
     azimuth_deg: -62.0,
     elevation_deg: 40.0,
 };
@@ -131,10 +131,15 @@ pub(super) fn picture(paths: &[Path]) -> Svg {
         .draw()
 }
 
+/// The space of the trajectories: right-handed axes north, west, up.
+pub(super) fn empty_space() -> Space {
+    Space::new("North *x*, m", "West −*y*, m", "Height −*z*, m").view(VIEW)
+}
+
 /// Trajectories in space, the reference among them.
 pub(super) fn space(paths: &[Path]) -> Space {
-    let mut space = Space::new("North *x*, m", "East *y*, m", "Height −*z*, m").view(VIEW);
-    let point = |p: nalgebra::Vector3<f64>| [p.x, p.y, -p.z];
+    let mut space = empty_space();
+    let point = |p: nalgebra::Vector3<f64>| Space::of_z_down(p.x, p.y, p.z);
     if let Some(first) = paths.first() {
         let reference = first
             .log
