@@ -34,8 +34,10 @@ const PARTIAL: Claim =
 const PITCH: f64 = 92.0;
 /// Rows, from level 1 up.
 const ROWS: f64 = 6.0;
-/// Size of a block, px.
-const SIZE: (f64, f64) = (330.0, 54.0);
+/// Widths of the blocks of the two columns and their height, px.
+const WIDTHS: (f64, f64) = (410.0, 290.0);
+/// Height of a block, px.
+const HEIGHT: f64 = 54.0;
 
 /// A model and its place: column from the left, row from below.
 struct Node {
@@ -102,7 +104,7 @@ fn covers(nodes: &[Node]) -> Vec<(usize, usize)> {
 
 fn draw(_: &Context) -> Result<Drawing, ItemError> {
     let nodes = nodes();
-    let mut diagram = Diagram::new(820.0, ROWS * PITCH + 6.0);
+    let mut diagram = Diagram::new(850.0, ROWS * PITCH + 6.0);
     let mut data = DataTable::new(["level", "states", "inputs", "linear", "features", "covers_rows"]);
     let edges = covers(&nodes);
     let blocks: Vec<Block> = nodes
@@ -163,9 +165,14 @@ fn block(node: &Node) -> Block {
         _ if node.resolution.is_linear() => PLAIN,
         _ => BLUE_TINT,
     };
+    let (x, width) = if node.column == 0.0 {
+        (215.0, WIDTHS.0)
+    } else {
+        (695.0, WIDTHS.1)
+    };
     Block {
-        centre: at(190.0 + 440.0 * node.column, PITCH * (ROWS - 0.5 - node.row)),
-        size: SIZE,
+        centre: at(x, PITCH * (ROWS - 0.5 - node.row)),
+        size: (width, HEIGHT),
         fill,
     }
 }

@@ -3,6 +3,7 @@
 use crate::item::Item;
 
 mod attribution;
+mod dynamic_resolution;
 mod figure_5_1;
 mod figure_5_2;
 mod table_5_1;
@@ -13,4 +14,5 @@ pub(super) const ITEMS: &[Item] = &[
     figure_5_2::ITEM,
     table_5_1::ITEM,
     attribution::ITEM,
+    dynamic_resolution::ITEM,
 ];
