@@ -1,17 +1,15 @@
 //! Figure beyond.2: a flight that is fine near the station and coarse far from it, against one at level 5 throughout.
 
+use super::near_and_far::{STATION, fly};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::figures::flight_settings;
 use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, Panel, level_name, level_style, series_style};
-use quad_dynamics::{Level, Resolution, Vehicle};
-use quad_ndi::{AnyController, C1, TiltLaw, Waypoint};
-use sifre::black_box::MemoryBox;
-use sifre::quadrotor::{LevelRule, Script, Setup, Start};
-use sifre::{Event, Member, Mission, Quadrotor, Recording, Simulation, Target, steps};
+use quad_dynamics::Level;
+use sifre::quadrotor::LevelRule;
+use sifre::steps;
 use std::sync::Arc;
 
 /// The figure.
@@ -34,87 +32,10 @@ const NEAR: Claim = Claim::holds(
 const CHEAP: Claim =
     Claim::holds("it costs less than three quarters of the flight at level 5, in numbers integrated");
 
-/// Duration, s.
-const END_S: f64 = 40.0;
-/// Where it starts in W, m.
-const FAR: [f64; 3] = [-12.0, 0.0, -2.0];
-/// Where the station is in W, m.
-const STATION: [f64; 3] = [0.0, 0.0, -2.0];
 /// Time that the loops take to settle after a change, s.
 const SETTLED_S: f64 = 3.0;
 /// Largest velocity step between records that is motion and no jump, m/s: 2 g over a step.
 const MOTION_M_S: f64 = 2.0 * 9.81 * 1e-3;
-
-struct Flight {
-    recording: Recording,
-    events: Vec<Event>,
-}
-
-fn fly(vehicle: &Arc<Vehicle>, rule: Option<LevelRule>) -> Result<Flight, ItemError> {
-    let at = |time_s, x| Waypoint {
-        time_s,
-        position_m: [x, FAR[1], FAR[2]],
-        velocity_m_s: [0.0; 3],
-        yaw_rad: 0.0,
-        yaw_rate_rad_s: 0.0,
-    };
-    let points = [at(0.0, FAR[0]), at(16.0, -1.0), at(24.0, -1.0), at(END_S, FAR[0])];
-    let mission = Mission::through(&points, vehicle.environment.gravity, TiltLaw::SmallAngle)?;
-    let pilot = AnyController::C1(C1::new(vehicle, &flight_settings())?.into());
-    let setup = Setup {
-        start: Start {
-            position_m: FAR,
-            yaw_rad: 0.0,
-        },
-        script: Script {
-            rule,
-            ..Script::default()
-        },
-        ..Setup::new("a", vehicle, Level::Five, pilot, mission)
-    };
-    let step = steps::QUADROTOR.step;
-    let station = Target::fixed("station", STATION.into());
-    let mut simulation = Simulation::new(vec![
-        Member::new(Quadrotor::new(setup)?, step),
-        Member::new(station, step),
-    ])?;
-    let id = simulation.attach(step, MemoryBox::default())?;
-    simulation.run(END_S, &mut ())?;
-    let events = simulation.events().to_vec();
-    let memory = simulation
-        .detach::<MemoryBox>(id)
-        .ok_or_else(|| ItemError::new("no black box"))??;
-    Ok(Flight {
-        recording: memory.recording,
-        events,
-    })
-}
-
-impl Flight {
-    fn column(&self, name: &str) -> Vec<f64> {
-        self.recording
-            .column(&format!("a.{name}"))
-            .map(Iterator::collect)
-            .unwrap_or_default()
-    }
-
-    /// Three columns as rows.
-    fn vectors(&self, name: &str) -> Vec<nalgebra::Vector3<f64>> {
-        let [x, y, z] = ["x", "y", "z"].map(|axis| self.column(&format!("{name}.{axis}")));
-        (0..x.len())
-            .map(|k| nalgebra::Vector3::new(x[k], y[k], z[k]))
-            .collect()
-    }
-
-    /// Numbers integrated: states times the four evaluations of each step.
-    fn cost(&self) -> f64 {
-        let states = Level::ALL.map(|level| Resolution::of(level, &level.phenomena()).states as f64);
-        self.column("level")
-            .iter()
-            .map(|level| 4.0 * states[*level as usize - 1])
-            .sum()
-    }
-}
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let vehicle = Arc::new(load_vehicle(context, NOMINAL_VEHICLE)?);
@@ -165,18 +86,20 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             .collect::<Vec<_>>()
     };
     let (coarse, fine) = (part.clone()(2.0), part(5.0));
-    let from_station = Panel::new("Time *t*, s", "Distance from the station, m")
+    let from_station = Panel::new("Time *t*, s", "From the station, m")
         .y_include(0.0)
         .line(level_name(2), level_style(2), coarse)
         .line(level_name(5), level_style(5), fine);
-    let from_level_5 = Panel::new("Time *t*, s", "Distance from level 5's flight, mm")
-        .y_include(0.0)
-        .line("", series_style(0), drawn.iter().map(|&k| (time(k), apart[k])));
+    let from_level_5 = Panel::new("Time *t*, s", "From level 5, mm").y_include(0.0).line(
+        "",
+        series_style(0),
+        drawn.iter().map(|&k| (time(k), apart[k])),
+    );
     let figure = Figure::columns(1)
         .panel(from_station)
         .panel(from_level_5)
         .share_x()
-        .panel_size(440.0, 150.0);
+        .panel_size(440.0, 170.0);
     let pick = |of: &[f64]| drawn.iter().map(|&k| of[k]).collect::<Vec<_>>();
     let times: Vec<f64> = drawn.iter().map(|&k| time(k)).collect();
     let columns = [
