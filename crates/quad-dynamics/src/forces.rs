@@ -1,4 +1,4 @@
-//! What acts on the airframe besides gravity: rotors, drag, gyroscopic torque. One type per contribution.
+//! What the four rotors do to the airframe: force and moment from their thrusts and torques.
 //!
 //! Rotor order and place on a '+' layout: 1 rear, 2 front, 3 left, 4 right. Source: thesis chapter 3.4.
 
@@ -39,43 +39,4 @@ impl<R: Real> RotorGeometry<R> {
 #[inline(always)]
 pub(crate) fn sum_of_four<R: Real>(f: impl Fn(usize) -> R) -> R {
     (f(0) + f(1)) + (f(2) + f(3))
-}
-
-/// Drag of the airframe and damping of its rates.
-///
-/// `F_i = −k_i |v_i| v_i` with the air-relative velocity along B, `M_i = −d_i ω_i`. A bluff body's
-/// quadratic law axis by axis; the damping is that of rotors whose inflow a rate changes. Source: thesis
-/// chapter 3.4.4 (that there is drag); the form is this project's choice. Kink: the second derivative of
-/// the force jumps at `v_i = 0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drag<R: Real> {
-    /// `k`, N s²/m², per body axis.
-    pub quadratic: Vector3<R>,
-    /// `d`, N m s/rad, per body axis.
-    pub rate_damping: Vector3<R>,
-}
-
-impl<R: Real> Drag<R> {
-    /// Force and moment at an air-relative velocity along B, m/s, and body rates, rad/s.
-    #[inline(always)]
-    pub fn wrench(&self, air_velocity_b: &Vector3<R>, body_rates: &Vector3<R>) -> Wrench<R> {
-        Wrench {
-            force: self
-                .quadratic
-                .zip_map(air_velocity_b, |k, v| -k * v.simd_abs() * v),
-            moment: -self.rate_damping.component_mul(body_rates),
-        }
-    }
-}
-
-/// Gyroscopic torque of the spinning rotors, `M = −ω × (Σ s_i I_R Ω_i e_z)`, N m along B.
-///
-/// The airframe must turn the rotors' angular momentum along with itself. Source: thesis chapter 3.4.3.
-#[inline(always)]
-pub fn gyroscopic_torque<R: Real>(body_rates: &Vector3<R>, spin_momentum: R) -> Vector3<R> {
-    Vector3::new(
-        -body_rates.y * spin_momentum,
-        body_rates.x * spin_momentum,
-        R::zero(),
-    )
 }

@@ -14,7 +14,9 @@
 //! | [`MechanisticQuadrotor`] | as 2 | motor and propeller, states `Ω`, `V` | as asked | 22 |
 //!
 //! What a model has besides rigid body and rotors is a set of phenomena ([`PhenomenonSet`]), each
-//! switched on and off by itself; [`Level::phenomena`] is the level's own set.
+//! switched on and off by itself; [`Level::phenomena`] is the level's own set. Each declares what it needs
+//! ([`Prerequisite`]); a model without that is refused. Turbulence, wind shear and process noise act from outside: their physics is
+//! here and takes its random numbers as arguments, the engine draws them.
 //!
 //! ```
 //! use nalgebra::Vector3;
@@ -51,6 +53,13 @@
 //! | spin-up reaction `−Σ s_i I_R Ω̇_i e_z` | [`SpinningRotors`], in `Quadrotor::spin_moment` | 3.4 |
 //! | drag `−k ∣v∣ v` and rate damping | [`Drag::wrench`] | 3.4 |
 //! | `u* = C u` | [`Vehicle::control_matrix`] | 3.6 |
+//! | ground effect `T = T_∞ / (1 − (R/4z)²)` | [`GroundEffect`] | 3.7; Cheeseman and Bennett 1955 |
+//! | blockage `D = ½ ρ C_D S (∣w∣ w − ∣V_c∣ V_c)` | [`Blockage`] | 3.7; Leishman 2006 |
+//! | turbulence, Dryden's filters | [`Dryden`] | 3.7; MIL-F-8785C |
+//! | wind over height | [`Shear`] | MIL-F-8785C |
+//! | process noise `Δv = σ √h n` | [`ProcessNoise`] | 3.7; Gelb 1974 |
+//! | resolution, its partial order | [`Resolution`] | 5.1.4 |
+//! | shares of a difference between levels | [`Parts::attribute`] | Shapley 1953 |
 //! | rotors | [`quad_rotor`], one type per model | 3.5, 4.5 |
 //! | battery current `Σ d_i (K_v Q_i + I_0)` | [`CurrentDraw`] | choice |
 //! | hover trim | [`QuadrotorModel::hover`], solved in `build.rs` | |
@@ -72,10 +81,12 @@ mod any;
 mod attribution;
 mod blockage;
 pub mod build;
+mod drag;
 mod dryden;
 mod error;
 mod forces;
 mod ground_effect;
+mod gyroscopic;
 mod lagrange;
 mod level1;
 mod model;
@@ -93,10 +104,12 @@ pub mod vehicle;
 pub use any::{AnyQuadrotor, InFlight};
 pub use attribution::{Attribution, AttributionError, MOST_PARTS, Parts, Share, shapley_values};
 pub use blockage::Blockage;
+pub use drag::Drag;
 pub use dryden::{Dryden, DrydenNoise, DrydenState};
 pub use error::{BuildError, ModelName};
-pub use forces::{Drag, RotorGeometry, gyroscopic_torque};
+pub use forces::RotorGeometry;
 pub use ground_effect::GroundEffect;
+pub use gyroscopic::gyroscopic_torque;
 pub use level1::{Level1, LinearRate, LinearState};
 pub use model::{Flight, Hover, Input, Level, NoSuchLevel, QuadrotorModel, RotorSnapshot, Snapshot, StateOf};
 pub use phenomenon::{Capabilities, Phenomenon, PhenomenonSet, Prerequisite};

@@ -6,13 +6,13 @@ use allocation_counter::measure;
 use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{AnyController, C1, Reference, Settings};
 use sifre::black_box::CsvBox;
-use sifre::quadrotor::{Script, Setup};
+use sifre::quadrotor::{ProcessNoiseSource, Script, Setup, Turbulence, Wind};
 use sifre::{
     Ets, EtsSetup, Facing, Follow, Member, Quadrotor, Schedule, Simulation, StepSize, StopCondition, Target,
 };
 use std::sync::Arc;
 
-/// A quadrotor at every level in wind, each facing the next, a follower, a target and a station; steps of 1, 2 and 3 ms.
+/// A quadrotor at every level in wind, gusts and noise, each facing the next, a follower, a target and a station; steps of 1, 2 and 3 ms.
 fn simulation() -> Simulation {
     let vehicle = Arc::new(Vehicle::qball_x4());
     let c1 = || AnyController::C1(C1::new(&vehicle, &Settings::default()).unwrap().into());
@@ -23,7 +23,20 @@ fn simulation() -> Simulation {
     )];
     for level in Level::ALL {
         let hold = Facing::agent(Reference::hold([0.2, 0.1, -1.0].into(), 0.0), "target");
+        let turbulence = Turbulence {
+            w20_m_s: 8.0,
+            seed: 1,
+        };
         let script = Script {
+            wind: Wind {
+                turbulence: (level >= Level::Four).then_some(turbulence),
+                ..Wind::default()
+            },
+            process_noise: Some(ProcessNoiseSource {
+                acceleration_m_s2_sqrt_hz: 0.01,
+                angular_acceleration_rad_s2_sqrt_hz: 0.01,
+                seed: 1,
+            }),
             wind_m_s: Schedule::new([(0.05, [1.0, 0.0, 0.0])]).unwrap(),
             command_offset: Schedule::new([(0.05, [1e-5, 0.0, 0.0, 0.0])]).unwrap(),
             ..Script::default()

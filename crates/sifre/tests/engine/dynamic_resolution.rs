@@ -99,9 +99,9 @@ fn largest(mut values: impl Iterator<Item = f64>) -> f64 {
         .unwrap_or(f64::NAN)
 }
 
-/// Coarse, fine, coarse; at the rule's distances; nothing seen of the flight jumps. Far from the station it keeps within 0.3 m of the flight
-/// that is at level 5 throughout: what the full battery lifts level 5 above its set point under a controller without
-/// integral action, which level 2 can't know. Near the station it keeps within a centimetre from 3 s after the change on, at less
+/// Coarse, fine, coarse; at the rule's distances; nothing seen of the flight jumps. Far from the station it keeps within 0.3 m of the
+/// flight that is at level 5 throughout: what level 5's sagging battery moves it from its set point under a controller without
+/// integral action, and what level 2 can't know. Near the station it keeps within a centimetre from 3 s after the change on, at less
 /// than three quarters of the cost.
 #[test]
 fn agree_with_level_5_at_a_fraction_of_its_cost() {

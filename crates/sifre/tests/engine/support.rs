@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{AnyController, C1, C3, Pid, PidGains, PidSettings, Reference, Settings};
 use sifre::black_box::MemoryBox;
-use sifre::quadrotor::{LevelChoice, Script, Setup, Start};
+use sifre::quadrotor::{LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
 use sifre::{
     Ets, EtsSetup, Facing, Follow, Member, Path, Quadrotor, Recording, RunReport, Schedule, Simulation,
     StepSize, Target,
@@ -115,7 +115,19 @@ impl Plan {
                 Setup::new(name(i), vehicle, self.level, pilot, facing)
             }
         };
+        let levels = [Some(self.level), self.switch.map(|(_, level)| level)];
+        let all_have_drag = levels.into_iter().flatten().all(|level| level >= Level::Four);
+        let seed = i as u64;
         let script = Script {
+            wind: Wind {
+                turbulence: all_have_drag.then_some(Turbulence { w20_m_s: 8.0, seed }),
+                ..Wind::default()
+            },
+            process_noise: Some(ProcessNoiseSource {
+                acceleration_m_s2_sqrt_hz: 0.01,
+                angular_acceleration_rad_s2_sqrt_hz: 0.01,
+                seed,
+            }),
             wind_m_s: Schedule::new([(self.gust.0, self.gust.1)]).expect("a time of the clock"),
             level: Schedule::new(self.switch.map(|(time, to)| (time, LevelChoice::from(to))))
                 .expect("a time"),

@@ -104,7 +104,11 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 struct Run(String);
 
 fn panel(lower: Level, upper: Level, found: &Attribution) -> Panel {
-    let names = found.shares.iter().map(|s| s.part.to_string().replace('-', " "));
+    let name = |s: &quad_dynamics::Share| match s.part {
+        Feature::Phenomenon(phenomenon) => phenomenon.name().replace('-', " "),
+        part => part.to_string(),
+    };
+    let names: Vec<String> = found.shares.iter().map(name).collect();
     let points = |offset: f64, value: fn(&quad_dynamics::Share) -> f64| {
         let places = found.shares.iter().enumerate();
         let points: Vec<_> = places.map(|(i, s)| (i as f64 + 1.0 + offset, value(s))).collect();
@@ -113,7 +117,7 @@ fn panel(lower: Level, upper: Level, found: &Attribution) -> Panel {
     let look = |i: usize, marker| series_style(i).marked(marker);
     Panel::new("", "Change of height error, mm")
         .caption(format!(
-            "{lower} to {}: {:.1} mm to {:.1} mm",
+            "{lower} to {}: {:.2} mm to {:.2} mm",
             upper.number(),
             found.base,
             found.top

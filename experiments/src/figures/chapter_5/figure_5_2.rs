@@ -1,5 +1,6 @@
 //! Figure 5.2: the models of the family and their partial order, from their own declarations.
 
+use super::models::{Node, covers, nodes};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
@@ -8,10 +9,6 @@ use crate::plot::diagram::{
     ARROW, BLUE_TINT, Block, CONSTRUCTION, Diagram, GREEN_TINT, ORANGE_TINT, PLAIN, QUIET,
 };
 use crate::plot::svg::{Point, at};
-use quad_dynamics::Phenomenon::{
-    Blockage, Drag, GroundEffect, GyroscopicTorque, InputLimits, ProcessNoise, Turbulence, WindShear,
-};
-use quad_dynamics::{Feature, Level, Phenomenon, Resolution};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -34,75 +31,14 @@ const PARTIAL: Claim =
 const PITCH: f64 = 92.0;
 /// Rows, from level 1 up.
 const ROWS: f64 = 6.0;
-/// Size of a block, px.
-const SIZE: (f64, f64) = (330.0, 54.0);
-
-/// A model and its place: column from the left, row from below.
-struct Node {
-    resolution: Resolution,
-    column: f64,
-    row: f64,
-    words: String,
-}
-
-/// The levels, and models that phenomena make of them.
-fn nodes() -> Vec<Node> {
-    let levels = Level::ALL.map(|level| {
-        let resolution = Resolution::of(level, &level.phenomena());
-        let kind = if resolution.is_linear() {
-            "linear"
-        } else {
-            "non-linear"
-        };
-        let below = level.number().checked_sub(2).map(|i| Level::ALL[usize::from(i)]);
-        let added = below
-            .map(|b| resolution.beyond(&Resolution::of(b, &b.phenomena())))
-            .unwrap_or_default();
-        let added: Vec<String> = added.iter().map(written).collect();
-        let head = format!("Level {}: {kind}, {} states", level.number(), resolution.states);
-        Node {
-            words: if added.is_empty() {
-                head
-            } else {
-                format!("{head}\n+ {}", added.join(", "))
-            },
-            row: f64::from(level.number()) - 1.0,
-            column: 0.0,
-            resolution,
-        }
-    });
-    let variants: [(Level, &[Phenomenon], f64, f64); 5] = [
-        (Level::Two, &[Drag, GyroscopicTorque], 1.0, 2.0),
-        (Level::Three, &[InputLimits], 1.0, 3.0),
-        (Level::Four, &[GroundEffect], 1.0, 4.0),
-        (Level::Five, &[Turbulence, WindShear, ProcessNoise], 0.0, 5.0),
-        (Level::Five, &[GroundEffect, Blockage], 1.0, 5.0),
-    ];
-    let variants = variants.map(|(level, more, column, row)| {
-        let on = more.iter().fold(level.phenomena(), |on, p| on.with(*p));
-        let names: Vec<String> = more.iter().map(|p| written(&Feature::Phenomenon(*p))).collect();
-        Node {
-            resolution: Resolution::of(level, &on),
-            column,
-            row,
-            words: format!("Level {}\n+ {}", level.number(), names.join(", ")),
-        }
-    });
-    levels.into_iter().chain(variants).collect()
-}
-
-/// Pairs (lower, upper) with nothing between them: the covering relation.
-fn covers(nodes: &[Node]) -> Vec<(usize, usize)> {
-    let below = |i: usize, j: usize| nodes[i].resolution < nodes[j].resolution;
-    let pairs = (0..nodes.len()).flat_map(|i| (0..nodes.len()).map(move |j| (i, j)));
-    pairs
-        .filter(|&(i, j)| below(i, j) && !(0..nodes.len()).any(|k| below(i, k) && below(k, j)))
-        .collect()
-}
+/// Widths of the blocks of the two columns and their height, px.
+const WIDTHS: (f64, f64) = (410.0, 290.0);
+/// Height of a block, px.
+const HEIGHT: f64 = 54.0;
 
 fn draw(_: &Context) -> Result<Drawing, ItemError> {
     let nodes = nodes();
-    let mut diagram = Diagram::new(820.0, ROWS * PITCH + 6.0);
+    let mut diagram = Diagram::new(850.0, ROWS * PITCH + 6.0);
     let mut data = DataTable::new(["level", "states", "inputs", "linear", "features", "covers_rows"]);
     let edges = covers(&nodes);
     let blocks: Vec<Block> = nodes
@@ -163,9 +99,14 @@ fn block(node: &Node) -> Block {
         _ if node.resolution.is_linear() => PLAIN,
         _ => BLUE_TINT,
     };
+    let (x, width) = if node.column == 0.0 {
+        (215.0, WIDTHS.0)
+    } else {
+        (695.0, WIDTHS.1)
+    };
     Block {
-        centre: at(190.0 + 440.0 * node.column, PITCH * (ROWS - 0.5 - node.row)),
-        size: SIZE,
+        centre: at(x, PITCH * (ROWS - 0.5 - node.row)),
+        size: (width, HEIGHT),
         fill,
     }
 }
@@ -173,12 +114,4 @@ fn block(node: &Node) -> Block {
 /// Where an arrow ends: beside the middle of the block if it comes from the other column.
 fn landing(from: Point, to: Point) -> Point {
     at(to.x + 0.12 * (from.x - to.x), to.y)
-}
-
-/// A feature in rich text: what switches on and off in italics.
-fn written(feature: &Feature) -> String {
-    match feature {
-        Feature::Phenomenon(_) => format!("*{}*", feature.to_string().replace('-', " ")),
-        _ => feature.to_string(),
-    }
 }

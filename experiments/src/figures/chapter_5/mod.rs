@@ -3,8 +3,11 @@
 use crate::item::Item;
 
 mod attribution;
+mod dynamic_resolution;
 mod figure_5_1;
 mod figure_5_2;
+mod models;
+mod near_and_far;
 mod table_5_1;
 
 /// The items of this chapter.
@@ -13,4 +16,5 @@ pub(super) const ITEMS: &[Item] = &[
     figure_5_2::ITEM,
     table_5_1::ITEM,
     attribution::ITEM,
+    dynamic_resolution::ITEM,
 ];

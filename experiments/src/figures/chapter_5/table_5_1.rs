@@ -6,7 +6,7 @@ use crate::drawing::{DisplayTable, Drawing};
 use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, Level, Phenomenon, PhenomenonSet};
+use quad_dynamics::{AnyQuadrotor, Level, Phenomenon, PhenomenonSet, Prerequisite};
 
 /// The table.
 pub(super) const ITEM: Item = Item {
@@ -90,6 +90,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             phenomenon.source().into(),
         ]);
     }
+    wind(&mut shown, &mut data);
     Ok(Drawing::table(shown).data(data).check(
         BUILT,
         agreed == tried,
@@ -102,4 +103,38 @@ fn numbers(of: &[bool; 5]) -> String {
     let chosen = Level::ALL.iter().zip(of).filter(|(_, is)| **is);
     let numbers: Vec<String> = chosen.map(|(level, _)| level.number().to_string()).collect();
     numbers.join(" ")
+}
+
+/// The mean wind and its steps: no part of a model, but an input that models with drag feel.
+fn wind(shown: &mut DisplayTable, data: &mut DataTable) {
+    const NAME: &str = "wind and its steps (input)";
+    const ADDS: &str = "mean velocity of the air, constant or stepping";
+    let needs = Prerequisite::AirRelativeDrag.to_string();
+    let drag = PhenomenonSet::none().with(Phenomenon::Drag);
+    let fits = Level::ALL.map(|level| drag.admitted_by(level) == drag);
+    let by_itself = Level::ALL.map(|level| level.phenomena().contains(Phenomenon::Drag));
+    let mark = |i: usize| match (by_itself[i], fits[i]) {
+        (true, _) => "●",
+        (false, true) => "○",
+        (false, false) => "",
+    };
+    shown.push([
+        NAME,
+        ADDS,
+        &needs,
+        mark(0),
+        mark(1),
+        mark(2),
+        mark(3),
+        mark(4),
+        "thesis 3.7",
+    ]);
+    data.push([
+        NAME.into(),
+        ADDS.into(),
+        needs.as_str().into(),
+        numbers(&fits).as_str().into(),
+        numbers(&by_itself).as_str().into(),
+        "thesis 3.7".into(),
+    ]);
 }
