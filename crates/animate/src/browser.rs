@@ -21,7 +21,7 @@ pub const CHROMIUM: &str = "CHROMIUM";
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
 /// How long the browser may be silent, s: it answers within one or two on an idle machine.
-const PATIENCE_S: u64 = 60;
+const PATIENCE_S: u64 = 120;
 
 /// Puts the pipes from and to us where the browser looks for them.
 const SHELL: &str = "exec \"$0\" \"$@\" 3<&0 4>&1 </dev/null >/dev/null";

@@ -18,7 +18,7 @@ function drawHud(context, box, station) {
     inclinationTape(context, box, station, pixelsPerRadian, large);
     if (large) {
         compassRose(context, { x: box.x + 84, y: box.y + box.h - 84, r: 56 }, station);
-        inclinationGauge(context, { x: box.x + box.w - 118, y: box.y + box.h - 44, r: 78 }, station);
+        inclinationGauge(context, { x: box.x + box.w - 172, y: box.y + box.h - 44, r: 78 }, station);
     }
     caption(context, box, station, large);
     context.restore();
@@ -73,7 +73,8 @@ function bearingTape(context, box, station, scale, large) {
         const named = d % (large ? 10 : 15) === 0;
         tick(context, x, box.y + height, x, box.y + height - (named ? 7 : 4));
         const turn = ((d % 360) + 360) % 360;
-        if (named) context.fillText(turn % 45 === 0 ? CARDINALS[turn / 45] : `${turn}°`, x, box.y + (large ? 8 : 3));
+        const isWhole = x > box.x + 16 && x < box.x + box.w - 16;
+        if (named && isWhole) context.fillText(turn % 45 === 0 ? CARDINALS[turn / 45] : `${turn}°`, x, box.y + (large ? 8 : 3));
     }
     pointer(context, middle, box.y + height, 0, 1);
 }
@@ -98,7 +99,8 @@ function inclinationTape(context, box, station, scale, large) {
         const y = middle - (d - tilt) * DEGREE * scale;
         const named = d % 10 === 0;
         tick(context, left, y, left + (named ? 7 : 4), y);
-        if (named) context.fillText(`${signed(d)}°`, box.x + box.w - 5, y);
+        const isWhole = y > top + 7 && y < box.y + box.h - 7;
+        if (named && isWhole) context.fillText(`${signed(d)}°`, box.x + box.w - 5, y);
     }
     context.restore();
     pointer(context, left, middle, -1, 0);

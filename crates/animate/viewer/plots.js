@@ -170,12 +170,12 @@ function topOf(curves, limits) {
     return 1.12 * Math.max(most, ...near, 1e-6);
 }
 
-/** About `count` round numbers in a range. */
+/** Round numbers in a range, `count` or up to half as many more. */
 function ticks(low, high, count) {
     const raw = (high - low) / count;
     if (!(raw > 0)) return [low];
     const power = 10 ** Math.floor(Math.log10(raw));
-    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
+    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.7);
     const found = [];
     for (let i = Math.ceil(low / step - 1e-9); i * step <= high * (1 + 1e-12) + 1e-12; i++) found.push(i * step);
     return found;

@@ -16,6 +16,7 @@ class Stage {
         this.inset = document.getElementById('inset');
         this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
         this.renderer.autoClear = false;
+        this.renderer.setClearColor(SKY);
         this.element.prepend(this.renderer.domElement);
         this.eye = new THREE.PerspectiveCamera(36, 1, 0.05, 400);
         this.controls = new THREE.OrbitControls(this.eye, this.renderer.domElement);
@@ -117,7 +118,6 @@ class Stage {
         const ratio = this.resize();
         this.inset.hidden = !station;
         this.renderer.setScissorTest(false);
-        this.renderer.setClearColor('#3a3f44');
         this.renderer.clear();
         if (station) this.drawInset(station, isLarge, ratio);
         this.renderer.setScissorTest(false);

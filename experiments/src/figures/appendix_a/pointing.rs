@@ -75,7 +75,7 @@ pub(super) fn aims(flown: &Flown, pair: &Pair) -> Result<Vec<Aim>, ItemError> {
 }
 
 /// The instants at which the station has settled.
-pub(super) fn settled(aims: &[Aim]) -> impl Iterator<Item = &Aim> {
+fn settled(aims: &[Aim]) -> impl Iterator<Item = &Aim> {
     aims.iter().filter(|aim| aim.t >= SETTLED_S)
 }
 

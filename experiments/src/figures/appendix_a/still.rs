@@ -21,3 +21,15 @@ pub(super) fn animation(flown: &Flown, title: &str, hash: &str) -> Result<Animat
         still: still.transpose()?,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::plot::style::level_style;
+
+    #[test]
+    fn agree_levels_have_the_colours_of_the_figures() {
+        for (level, colour) in (1..).zip(animate::LEVEL_COLOURS) {
+            assert_eq!(level_style(level).colour, colour, "level {level}");
+        }
+    }
+}
