@@ -1,6 +1,5 @@
 //! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
 
-pub mod optimisers;
 mod condition;
 mod cost;
 mod decision;
@@ -9,7 +8,9 @@ mod error;
 mod fleet;
 mod ideal;
 mod mission;
+pub mod multi_fidelity;
 mod nominal;
+pub mod optimisers;
 mod outcome;
 mod path;
 mod problem;
