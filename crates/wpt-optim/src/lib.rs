@@ -8,6 +8,7 @@ mod error;
 mod fleet;
 mod ideal;
 mod mission;
+pub mod multi_fidelity;
 mod nominal;
 pub mod optimisers;
 mod outcome;

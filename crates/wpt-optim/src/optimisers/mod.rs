@@ -32,7 +32,7 @@
 //! ```
 
 mod annealing;
-mod draws;
+pub(crate) mod draws;
 mod error;
 mod evolution;
 mod line_search;

@@ -4,4 +4,5 @@ mod bad_input;
 mod laws;
 mod libraries;
 mod minima;
+mod multi_fidelity;
 mod support;

@@ -1,5 +1,6 @@
 //! Figure 7.7: the Nelder-Mead simplex on Himmelblau's function.
 
+use super::himmelblau::{HALF, Triangle, distance, simplices, solve};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
@@ -10,10 +11,8 @@ use crate::plot::style::{BLUE, GREY, INK, Look, Marker, VERMILION};
 use crate::plot::{Figure, Panel, series_style};
 use kuva::plot::ContourPlot;
 use kuva::render::plots::Plot;
-use sifre::Variable;
-use std::ops::ControlFlow;
+use wpt_optim::optimisers::Report;
 use wpt_optim::optimisers::test_functions::{HIMMELBLAU_MINIMA, himmelblau};
-use wpt_optim::optimisers::{Limits, NelderMead, Report, Search, SimplexSettings, run};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -29,8 +28,6 @@ pub(super) const ITEM: Item = Item {
 
 const ENDS: Claim = Claim::holds("ends in one of the four known minima (value 0)");
 
-/// Half the side of the box searched and drawn.
-const HALF: f64 = 6.0;
 /// Start of the search whose simplices are drawn.
 const START: [f64; 2] = [-1.0, -1.0];
 /// Starts of the histories, in the order of the known minima.
@@ -41,50 +38,6 @@ const CONTOURS: [f64; 9] = [2.0, 10.0, 25.0, 50.0, 90.0, 140.0, 200.0, 350.0, 60
 const GRID: u32 = 20;
 /// Farthest a search may end from a minimum: ten times the simplex' last size.
 const NEAR: f64 = 1e-4;
-
-type Triangle = Vec<(f64, f64)>;
-
-fn search(start: [f64; 2]) -> Result<NelderMead, ItemError> {
-    let axis = |name: &str| Variable {
-        name: name.into(),
-        unit: "1".into(),
-        lower: -HALF,
-        upper: HALF,
-    };
-    let variables = vec![axis("x"), axis("y")];
-    Ok(NelderMead::new(variables, &start, SimplexSettings::default())?)
-}
-
-fn solve(start: [f64; 2]) -> Result<Report, ItemError> {
-    let limits = Limits::evaluations(1000);
-    Ok(run(&mut search(start)?, himmelblau, limits, &mut |_| {
-        ControlFlow::Continue(())
-    })?)
-}
-
-/// Every simplex of a search, closed.
-fn simplices(start: [f64; 2]) -> Result<Vec<Triangle>, ItemError> {
-    let mut search = search(start)?;
-    let (mut triangles, mut drawn) = (Vec::new(), 0);
-    while let Some(candidate) = search.propose() {
-        let cost = himmelblau(&candidate.values);
-        search.learn(&candidate, cost)?;
-        let simplex = search.rule();
-        if simplex.iterations() > drawn {
-            drawn = simplex.iterations();
-            let corners = simplex.vertices().iter().cycle().take(4);
-            triangles.push(corners.map(|v| (v.values[0], v.values[1])).collect());
-        }
-    }
-    Ok(triangles)
-}
-
-/// Distance of a search's end from the nearest of the known minima.
-fn distance(report: &Report) -> f64 {
-    let x = &report.best.candidate.values;
-    let from = |m: &[f64; 2]| (x[0] - m[0]).hypot(x[1] - m[1]);
-    HIMMELBLAU_MINIMA.iter().map(from).fold(f64::INFINITY, f64::min)
-}
 
 fn draw(_: &Context) -> Result<Drawing, ItemError> {
     let triangles = simplices(START)?;

@@ -9,6 +9,7 @@ mod figure_7_5;
 mod figure_7_6;
 mod figure_7_7;
 mod growth;
+mod himmelblau;
 mod overfill;
 mod tracking;
 
