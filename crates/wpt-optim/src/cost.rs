@@ -349,7 +349,7 @@ mod tests {
             let slope = jacobian(|x| [bent(x[0])], [s]).x;
             assert!((slope - 1.0).abs() < 5e-5, "{slope} at {s}");
         }
-        assert!(bent(1e300).is_finite() && bent(1e300) > bent(1e299));
+        assert!(bent(1e300_f64).is_finite() && bent(1e300) > bent(1e299));
         assert_eq!(penalty(-3.0), 0.0);
     }
 

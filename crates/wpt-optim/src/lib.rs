@@ -1,5 +1,6 @@
 //! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
 
+pub mod optimisers;
 mod condition;
 mod cost;
 mod decision;
@@ -27,4 +28,3 @@ pub use outcome::{Failure, Histories, History, Outcome};
 pub use path::Path;
 pub use problem::{Gradient, LANES, Problem};
 pub use surface::{Grid, Minimum, Objective, Surface};
-pub mod optimisers;
