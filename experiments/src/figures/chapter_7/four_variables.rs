@@ -1,0 +1,92 @@
+//! Figures 7.16 to 7.20, tables 7.3 and 7.4: four variables, position and velocity along north at both ends.
+
+use super::optimisations::Case;
+use super::solution_table::{ENDED, table};
+use super::solutions::{NEVER_FALLS, errors, minima, trajectories};
+use crate::item::{Item, Kind, Make, Origin};
+
+/// What all of them share.
+const SHARED: Item = Item {
+    id: "",
+    title: "",
+    description: "",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[],
+    make: Make::NotReproducible("a template"),
+};
+
+/// Errors and cost, from rest.
+pub(super) const FIGURE_7_16: Item = Item {
+    id: "7.16",
+    title: "Errors and cost of each level's four-variable solution from *X*_{0} = [5, 0, −5, 0]",
+    description: "Errors over their limits and the cost, while each level flies the crossing in 20 s that the simplex found for it. Variables are position \
+                  and velocity along north at both ends, in m and m s^{−1}.",
+    make: Make::Draw(|context| errors(context, Case::Four)),
+    ..SHARED
+};
+
+/// Trajectories, from rest.
+pub(super) const FIGURE_7_17: Item = Item {
+    id: "7.17",
+    title: "Near-optimal trajectories of each level, four variables from *X*_{0} = [5, 0, −5, 0]",
+    description: "The crossings of figure 7.16 in space and from above, with the station and its beam at six instants.",
+    make: Make::Draw(|context| trajectories(context, Case::Four)),
+    ..SHARED
+};
+
+/// Errors and cost, from the other start.
+pub(super) const FIGURE_7_18: Item = Item {
+    id: "7.18",
+    title: "Errors and cost of each level's four-variable solution from *X*_{0} = [5, −1.5, −8, 1.5]",
+    description: "As figure 7.16, searched from another start.",
+    make: Make::Draw(|context| errors(context, Case::FourMoving)),
+    ..SHARED
+};
+
+/// Trajectories, from the other start.
+pub(super) const FIGURE_7_19: Item = Item {
+    id: "7.19",
+    title: "Near-optimal trajectories of each level, four variables from *X*_{0} = [5, −1.5, −8, 1.5]",
+    description: "As figure 7.17, searched from another start.",
+    make: Make::Draw(|context| trajectories(context, Case::FourMoving)),
+    ..SHARED
+};
+
+/// Minima and run time.
+pub(super) const FIGURE_7_20: Item = Item {
+    id: "7.20",
+    title: "Least cost and run time per call of the cost, four variables",
+    description: "The minima found from both starts and the time that one call of the cost takes on one thread, per level.",
+    claims: &[NEVER_FALLS],
+    make: Make::Draw(|context| {
+        minima(
+            context,
+            &[
+                ("from [5, 0, −5, 0]", Case::Four),
+                ("from [5, −1.5, −8, 1.5]", Case::FourMoving),
+            ],
+        )
+    }),
+    ..SHARED
+};
+
+/// The searches, from rest.
+pub(super) const TABLE_7_3: Item = Item {
+    id: "table-7.3",
+    title: "Four-variable optimisation from *X*_{0} = [5, 0, −5, 0]",
+    description: "The simplex at each level for a crossing in 20 s.",
+    kind: Kind::Table,
+    claims: &[ENDED],
+    make: Make::Draw(|context| table(context, Case::Four)),
+    ..SHARED
+};
+
+/// The searches, from the other start.
+pub(super) const TABLE_7_4: Item = Item {
+    id: "table-7.4",
+    title: "Four-variable optimisation from *X*_{0} = [5, −1.5, −8, 1.5]",
+    description: "As table 7.3, from another start.",
+    make: Make::Draw(|context| table(context, Case::FourMoving)),
+    ..TABLE_7_3
+};

@@ -1,0 +1,89 @@
+//! A case as a table: every level's search from every start.
+
+use super::optimisations::{Case, Effort, basin};
+use super::solutions::SEARCHED;
+use crate::claim::Claim;
+use crate::data::DataTable;
+use crate::drawing::{DisplayTable, Drawing};
+use crate::item::{Context, ItemError};
+use wpt_optim::optimisers::StopReason;
+
+/// The claim of every such table.
+pub(super) const ENDED: Claim =
+    Claim::holds("every search ends by its own criterion within its budget, below the cost of its start");
+
+/// A vector in brackets.
+pub(super) fn vector(values: &[f64]) -> String {
+    let values: Vec<_> = values.iter().map(|x| format!("{x:.3}")).collect();
+    format!("[{}]", values.join(", ")).replace('-', "−")
+}
+
+/// The searches of a case.
+pub(super) fn table(context: &Context, case: Case) -> Result<Drawing, ItemError> {
+    let effort = Effort::of(context.quick);
+    let mut shown = DisplayTable::new([
+        "Level",
+        "Start *X*_{0}",
+        "*Φ*(*X*_{0})",
+        "Solution *X*",
+        "Minimum *Φ*",
+        "Passes",
+        "Evaluations",
+        "Time, s",
+        "Ended",
+    ]);
+    let mut data = DataTable::new([
+        "level",
+        "start",
+        "start_cost",
+        "variable",
+        "solution",
+        "minimum",
+        "passes",
+        "evaluations",
+        "time_s",
+    ]);
+    let (mut searches, mut ended) = (0_usize, 0_usize);
+    for solved in case.solved(effort)? {
+        let level = solved.problem.level().number();
+        for (k, found) in solved.searches.iter().enumerate() {
+            let report = &found.report;
+            let side = basin(&solved.problem, found.best())?;
+            searches += 1;
+            let by_itself = matches!(
+                report.stop,
+                StopReason::Converged { .. } | StopReason::ScheduleDone
+            );
+            ended += usize::from(by_itself && found.cost() < found.start_cost);
+            shown.push([
+                level.to_string(),
+                vector(&found.start),
+                format!("{:.4}", found.start_cost),
+                vector(found.best()),
+                format!("{:.4}", found.cost()),
+                side.to_owned(),
+                report.evaluations.to_string(),
+                format!("{:.1}", report.elapsed.as_secs_f64()),
+                report.stop.to_string(),
+            ]);
+            for (decision, &value) in solved.problem.decisions().iter().zip(found.best()) {
+                data.push([
+                    level.into(),
+                    (k + 1).into(),
+                    found.start_cost.into(),
+                    decision.condition.key().into(),
+                    value.into(),
+                    found.cost().into(),
+                    side.into(),
+                    (report.evaluations as f64).into(),
+                    report.elapsed.as_secs_f64().into(),
+                ]);
+            }
+        }
+    }
+    Ok(Drawing::table(shown)
+        .data(data.with_tolerance(SEARCHED).with_volatile("time_s"))
+        .scenario(&case.settings(effort)?)?
+        .check(ENDED, ended == searches, format!("{ended} of {searches}"))
+        .note("Positions in m, velocities in m s^{−1}. A start and the solution are the decision vectors; *passes* is the side of the station on which the vehicle crosses *y* = 0, which tells the basins apart."))
+}

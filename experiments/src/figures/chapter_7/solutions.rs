@@ -1,0 +1,277 @@
+//! Pictures of the solutions of a case: errors and cost, trajectories, minima and run times.
+
+use super::optimisations::{Case, Effort, Solved, basin};
+use super::run_time::{MARGIN, least_times, never_falls};
+use crate::claim::Claim;
+use crate::data::DataTable;
+use crate::drawing::Drawing;
+use crate::item::{Context, ItemError};
+use crate::plot::figure::Legends;
+use crate::plot::space::View;
+use crate::plot::style::{GREY, INK, Look, Marker};
+use crate::plot::{Figure, Panel, Space, level_name, level_style};
+use kuva::plot::BarPlot;
+use kuva::render::plots::Plot;
+use quad_dynamics::Level;
+use std::num::NonZeroU64;
+use wpt_optim::{Histories, History};
+
+/// The run-time claim of the bar plots.
+pub(super) const NEVER_FALLS: Claim = Claim::holds("run time does not fall with level");
+
+/// Time between instants drawn, s.
+const SAMPLE_S: f64 = 0.04;
+/// Time between the beams drawn, as a share of the flight.
+const BEAMS: usize = 5;
+
+/// A flight that is drawn.
+pub(super) struct Flown {
+    /// The level.
+    pub(super) level: Level,
+    /// Its instants.
+    pub(super) histories: Histories,
+}
+
+/// How many of the station's steps lie between the instants drawn.
+pub(super) fn every(problem: &wpt_optim::Problem) -> NonZeroU64 {
+    let steps = SAMPLE_S / problem.mission().station_step.seconds();
+    NonZeroU64::new(steps.round() as u64).unwrap_or(NonZeroU64::MIN)
+}
+
+/// The flights of a case's solutions.
+fn flown(case: Case, effort: Effort) -> Result<Vec<Flown>, ItemError> {
+    let fly = |solved: &Solved| -> Result<Flown, ItemError> {
+        let problem = &solved.problem;
+        Ok(Flown {
+            level: problem.level(),
+            histories: problem.histories(solved.first().best(), every(problem))?,
+        })
+    };
+    case.solved(effort)?.iter().map(fly).collect()
+}
+
+/// What each level found, in words.
+fn remarks(case: Case, effort: Effort) -> Result<Vec<String>, ItemError> {
+    let remark = |solved: &Solved| -> Result<String, ItemError> {
+        let (problem, found) = (&solved.problem, solved.first());
+        let values: Vec<_> = found.best().iter().map(|x| format!("{x:.3}")).collect();
+        Ok(format!(
+            "Level {}: *Φ* = {:.4} at [{}], passing {} of the station; {} evaluations, {:.1} s; {}.",
+            problem.level().number(),
+            found.cost(),
+            values.join(", "),
+            basin(problem, found.best())?,
+            found.report.evaluations,
+            found.report.elapsed.as_secs_f64(),
+            found.report.stop
+        ))
+    };
+    case.solved(effort)?.iter().map(remark).collect()
+}
+
+fn noted(mut drawing: Drawing, case: Case, effort: Effort) -> Result<Drawing, ItemError> {
+    for remark in remarks(case, effort)? {
+        drawing = drawing.note(remark);
+    }
+    Ok(drawing.scenario(&case.settings(effort)?)?)
+}
+
+/// A panel of one quantity over time, a line per level.
+pub(super) fn over_time(label: &str, flown: &[Flown], quantity: impl Fn(&History) -> f64) -> Panel {
+    flown
+        .iter()
+        .fold(Panel::new("Time *t*, s", label), |panel, flight| {
+            let level = flight.level.number();
+            let points = flight.histories.instants.iter().map(|h| (h.time_s, quantity(h)));
+            panel.line(level_name(level), level_style(level), points)
+        })
+}
+
+/// The errors and the cost of each level's solution over time.
+pub(super) fn errors(context: &Context, case: Case) -> Result<Drawing, ItemError> {
+    let effort = Effort::of(context.quick);
+    let flown = flown(case, effort)?;
+    let solved = case.solved(effort)?;
+    let limits = &solved[0].problem.mission().station.limits;
+    let spot = |h: &History| h.spot_m[0].hypot(h.spot_m[1]) / limits.spot;
+    let figure = Figure::columns(2)
+        .panel(over_time("Range error *e*_{R}", &flown, |h| h.range_m / limits.range).y_include(0.0))
+        .panel(
+            over_time("Incidence error *e*_{α}", &flown, |h| {
+                h.incidence_rad / limits.incidence
+            })
+            .y_include(0.0),
+        )
+        .panel(over_time("Spot error *e*_{s}", &flown, spot))
+        .panel(over_time("Cost rate d(*T Φ*)/d*t*", &flown, |h| h.cost))
+        .share_x();
+    let mut data = DataTable::new(["level", "t_s", "e_range", "e_incidence", "e_spot", "cost_rate"]);
+    for flight in &flown {
+        for h in &flight.histories.instants {
+            data.push([
+                flight.level.number().into(),
+                h.time_s.into(),
+                (h.range_m / limits.range).into(),
+                (h.incidence_rad / limits.incidence).into(),
+                spot(h).into(),
+                h.cost.into(),
+            ]);
+        }
+    }
+    noted(
+        Drawing::picture(figure.draw()).data(data.with_tolerance(SEARCHED)),
+        case,
+        effort,
+    )
+}
+
+/// Tolerance of what follows from a search that stops at 1e-4 of its box: the last bits of another platform's sine may turn one of its
+/// decisions, and the answer then differs by as much.
+pub(super) const SEARCHED: f64 = 1e-3;
+
+/// North, west, up: right-handed, as the eye expects of a box.
+fn pictured(p: &[f64; 3]) -> [f64; 3] {
+    [p[0], -p[1], -p[2]]
+}
+
+/// The flights in space and from above, with the station and its beam.
+pub(super) fn paths(flown: &[Flown], station: [f64; 3]) -> Figure {
+    let thin = Look::solid(GREY, 0.7);
+    let mut space = Space::new("north *x*, m", "west −*y*, m", "height, m")
+        .equal_aspect()
+        .view(View {
+            azimuth_deg: -35.0,
+            elevation_deg: 26.0,
+        });
+    let mut plan = Panel::new("East *y*, m", "North *x*, m").equal_aspect();
+    if let Some(flight) = flown.last() {
+        let instants = &flight.histories.instants;
+        for k in 0..=BEAMS {
+            let p = instants[k * (instants.len() - 1) / BEAMS].position_m;
+            let label = if k == 0 { "beam at level 5" } else { "" };
+            space = space.line(label, thin, [pictured(&station), pictured(&p)]);
+            plan = plan.line(label, thin, [(station[1], station[0]), (p[1], p[0])]);
+        }
+    }
+    for flight in flown {
+        let (level, instants) = (flight.level.number(), &flight.histories.instants);
+        let (name, look) = (level_name(level), level_style(level));
+        let start = instants.first();
+        space = space
+            .line(
+                name.clone(),
+                look,
+                instants.iter().map(|h| pictured(&h.position_m)),
+            )
+            .markers("", look, start.map(|h| pictured(&h.position_m)));
+        plan = plan
+            .line(
+                name,
+                look,
+                instants.iter().map(|h| (h.position_m[1], h.position_m[0])),
+            )
+            .markers("", look, start.map(|h| (h.position_m[1], h.position_m[0])));
+    }
+    let mark = Look::solid(INK, 1.0).marked(Marker::Square);
+    space = space.markers("station", mark, [pictured(&station)]);
+    plan = plan.markers("station", mark, [(station[1], station[0])]);
+    Figure::columns(2)
+        .panel_size(360.0, 270.0)
+        .panel(space.caption("in space; markers: starts"))
+        .panel(plan.caption("from above"))
+}
+
+/// Positions as data.
+pub(super) fn path_data(flown: &[Flown]) -> DataTable {
+    let mut data = DataTable::new(["level", "t_s", "x_m", "y_m", "z_m"]);
+    for flight in flown {
+        for h in &flight.histories.instants {
+            let [x, y, z] = h.position_m.map(Into::into);
+            data.push([flight.level.number().into(), h.time_s.into(), x, y, z]);
+        }
+    }
+    data.with_tolerance(SEARCHED)
+}
+
+/// The trajectories of each level's solution.
+pub(super) fn trajectories(context: &Context, case: Case) -> Result<Drawing, ItemError> {
+    let effort = Effort::of(context.quick);
+    let flown = flown(case, effort)?;
+    let station = case.solved(effort)?[0]
+        .problem
+        .mission()
+        .station
+        .pedestal
+        .origin();
+    let figure = paths(&flown, station.into());
+    noted(
+        Drawing::picture(figure.draw()).data(path_data(&flown)),
+        case,
+        effort,
+    )
+}
+
+/// A bar per level, in the level's colour, with its value above.
+pub(super) fn bars(label: &str, values: &[f64], digits: usize) -> Panel {
+    let heights = values.to_vec();
+    let top = values.iter().copied().fold(0.0, f64::max);
+    let panel = Panel::new("Level", label)
+        .x_categories(Level::ALL.map(|l| l.number().to_string()))
+        .kuva(move || {
+            let bars = Level::ALL.iter().zip(&heights).map(|(level, &height)| {
+                let n = level.number();
+                (n.to_string(), height, level_style(n).colour)
+            });
+            Plot::Bar(BarPlot::new().with_colored_bars(bars).with_width(0.65))
+        })
+        .x_range(0.4, 5.6)
+        .y_range(0.0, 1.15 * top);
+    values.iter().enumerate().fold(panel, |panel, (i, &value)| {
+        panel.annotate(i as f64 + 1.0, value, format!("{value:.digits$}"))
+    })
+}
+
+/// Minima of some cases and the run time per call of the cost, per level.
+pub(super) fn minima(context: &Context, cases: &[(&'static str, Case)]) -> Result<Drawing, ItemError> {
+    let effort = Effort::of(context.quick);
+    let timed = cases[cases.len() - 1].1;
+    let times = least_times(timed, effort)?;
+    let mut figure = Figure::columns(cases.len() + 1)
+        .legends(Legends::None)
+        .panel_size(230.0, 190.0);
+    let mut data =
+        DataTable::new(["case", "level", "minimum", "evaluations", "call_s"]).with_tolerance(SEARCHED);
+    for (name, case) in cases {
+        let solved = case.solved(effort)?;
+        let costs: Vec<f64> = solved.iter().map(|s| s.first().cost()).collect();
+        figure = figure.panel(bars("Least cost *Φ*", &costs, 3).caption(*name));
+        for (solved, &time) in solved.iter().zip(&times) {
+            let found = solved.first();
+            let evaluations = found.report.evaluations as f64;
+            let level = solved.problem.level().number();
+            data.push([
+                (*name).into(),
+                level.into(),
+                found.cost().into(),
+                evaluations.into(),
+                time.into(),
+            ]);
+        }
+    }
+    let milliseconds: Vec<f64> = times.iter().map(|t| 1e3 * t).collect();
+    figure = figure.panel(bars("Run time per cost call, ms", &milliseconds, 1).caption("run time"));
+    let measured = milliseconds
+        .iter()
+        .map(|t| format!("{t:.2}"))
+        .collect::<Vec<_>>()
+        .join(", ");
+    let drawing = Drawing::picture(figure.draw())
+        .data(data.with_volatile("call_s"))
+        .check(
+            NEVER_FALLS,
+            never_falls(&times),
+            format!("{measured} ms for levels 1 to 5, the least of repeated calls; a fall of up to {:.0} % would count as none", 1e2 * MARGIN),
+        )
+        .note("Run times are of this machine and build; each is the least of calls in turns, until turns bring nothing new. Levels differ by what a derivative costs: steps and derivatives per flight are the same.");
+    noted(drawing, timed, effort)
+}
