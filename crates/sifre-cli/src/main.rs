@@ -2,13 +2,17 @@
 
 mod disk;
 mod doctor;
+mod drawing;
 mod exit;
 mod interrupt;
+mod levels;
 mod new;
+mod plot;
 mod recorder;
 mod report;
 mod run;
 mod schema;
+mod sweep;
 mod varied;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -42,6 +46,12 @@ struct Arguments {
 enum What {
     /// Fly a scenario and record it.
     Run(run::Arguments),
+    /// Fly a scenario at all five levels of resolution and compare them.
+    Levels(levels::Arguments),
+    /// Fly a scenario many times with keys varied, on a grid or at random; an interrupted sweep goes on where it was.
+    Sweep(sweep::Arguments),
+    /// Draw a recording.
+    Plot(plot::Arguments),
     /// Write a commented scenario to start from.
     New(new::Arguments),
     /// Print the JSON schema of scenario files, for editors.
@@ -59,6 +69,9 @@ fn main() -> ExitCode {
     let Arguments { what, json } = Arguments::parse();
     let outcome = match what {
         What::Run(arguments) => run::run(&arguments, json),
+        What::Levels(arguments) => levels::run(&arguments, json),
+        What::Sweep(arguments) => sweep::run(&arguments, json),
+        What::Plot(arguments) => plot::run(&arguments, json),
         What::New(arguments) => new::run(&arguments, json),
         What::Schema => schema::run(),
         What::Doctor => doctor::run(json),

@@ -38,7 +38,7 @@ fn exact_offset_in_steady_wind() {
     let vehicle = quad_dynamics::Vehicle::qball_x4();
     let drag = vehicle.drag.expect("it has drag").quadratic.x;
     // The loop's frequency for 5 s to 2 %, critically damped: (1 + x) e^-x = 0.02 at x = 5.8339.
-    let frequency = 5.8339 / 5.0;
+    let frequency = 5.8339_f64 / 5.0;
     let offset = drag * 16.0 / vehicle.airframe.mass / frequency.powi(2);
     // Tilt is some degrees: cosines between body and world are left out, 1 - cos(0.1) = 0.5 %, twice.
     let found = -flown.last("alpha.position.x");
