@@ -22,14 +22,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     for level in [4, 5] {
         set(&mut table, "quadrotor.alpha.level", level)?;
         let mut flight = Scenario::from_table(&table, "gust")?.build(&())?.fly()?;
-        let id = flight.simulation.attach(flight.output.step_s, MetricsBox::default())?;
+        let id = flight
+            .simulation
+            .attach(flight.output.step_s, MetricsBox::default())?;
         flight.run(&mut ())?;
         let Some(metrics) = flight.simulation.detach::<MetricsBox>(id).transpose()? else {
             continue;
         };
         let metrics = metrics.metrics();
-        let error = metrics.iter().find(|metric| metric.name == "alpha.position_error_max_m");
-        println!("{level:5}  {:16.4}", error.map_or(f64::NAN, |metric| metric.value));
+        let error = metrics
+            .iter()
+            .find(|metric| metric.name == "alpha.position_error_max_m");
+        println!(
+            "{level:5}  {:16.4}",
+            error.map_or(f64::NAN, |metric| metric.value)
+        );
     }
     Ok(())
 }

@@ -53,7 +53,9 @@ pub enum ScenarioError {
         source: GridError,
     },
     /// A name that can't be part of a channel's.
-    #[error("\"{name}\" can't be an agent's name: it must not be empty and must have no dots, commas, quotes or line breaks")]
+    #[error(
+        "\"{name}\" can't be an agent's name: it must not be empty and must have no dots, commas, quotes or line breaks"
+    )]
     Name {
         /// The name.
         name: String,
@@ -145,7 +147,9 @@ pub enum ScenarioError {
         must: &'static str,
     },
     /// A follower whose start doesn't follow from anything.
-    #[error("quadrotor \"{agent}\" follows \"{leader}\", from which no start follows: name an agent with a start, or give `start`")]
+    #[error(
+        "quadrotor \"{agent}\" follows \"{leader}\", from which no start follows: name an agent with a start, or give `start`"
+    )]
     NoStart {
         /// The agent.
         agent: String,

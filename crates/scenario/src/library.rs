@@ -91,7 +91,11 @@ pub(crate) fn vehicle(
 /// Takes over parameters into a vehicle file: numbers take the place of values, tables are gone into.
 fn change(agent: &str, file: &mut Table, parameters: &Table, above: &str) -> Result<(), ScenarioError> {
     for (key, wanted) in parameters {
-        let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
+        let path = if above.is_empty() {
+            key.clone()
+        } else {
+            format!("{above}.{key}")
+        };
         let refuse = |reason: String| ScenarioError::Parameter {
             agent: agent.to_owned(),
             key: path.clone(),

@@ -82,7 +82,11 @@ fn refused(place: Place, path: &str, error: &toml::de::Error) -> ScenarioError {
     if let Some((field, expected)) = quoted("unknown field `") {
         // The path of an unknown key ends in the key itself, unless its table is told apart by a `kind`.
         let ends_in_it = path.rsplit('.').next() == Some(field);
-        let key = if ends_in_it { path.to_owned() } else { join(path, field) };
+        let key = if ends_in_it {
+            path.to_owned()
+        } else {
+            join(path, field)
+        };
         let expected = expected.trim_start_matches(", ").replace('`', "");
         return ScenarioError::UnknownKey { place, key, expected };
     }
@@ -101,4 +105,3 @@ fn join(table: &str, key: &str) -> String {
         format!("{table}.{key}")
     }
 }
-

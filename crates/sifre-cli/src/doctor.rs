@@ -35,11 +35,26 @@ struct Check {
 /// Checks everything.
 pub(crate) fn run(json: bool) -> Result<Exit, Failure> {
     let checks = [
-        Check { what: "vehicles and stations load", seen: files() },
-        Check { what: "ready scenarios can be built", seen: scenarios() },
-        Check { what: "hover duty is weight over thrust gain", seen: hover() },
-        Check { what: "recordings can be written and read", seen: recordings() },
-        Check { what: "threads", seen: Ok(rayon::current_num_threads().to_string()) },
+        Check {
+            what: "vehicles and stations load",
+            seen: files(),
+        },
+        Check {
+            what: "ready scenarios can be built",
+            seen: scenarios(),
+        },
+        Check {
+            what: "hover duty is weight over thrust gain",
+            seen: hover(),
+        },
+        Check {
+            what: "recordings can be written and read",
+            seen: recordings(),
+        },
+        Check {
+            what: "threads",
+            seen: Ok(rayon::current_num_threads().to_string()),
+        },
     ];
     let sound = checks.iter().all(|check| check.seen.is_ok());
     if json {
@@ -55,7 +70,14 @@ pub(crate) fn run(json: bool) -> Result<Exit, Failure> {
                 Err(error) => println!("  FAILS {what}: {error}"),
             }
         }
-        println!("{}", if sound { "all is well" } else { "something is not well" });
+        println!(
+            "{}",
+            if sound {
+                "all is well"
+            } else {
+                "something is not well"
+            }
+        );
     }
     Ok(if sound { Exit::Done } else { Exit::Early })
 }
@@ -85,11 +107,16 @@ fn hover() -> Result<String, Box<dyn Error>> {
     let expected = weight / (4.0 * vehicle.linear_rotor.thrust_gain);
     let alpha: &Quadrotor = flight.simulation.agent("alpha").ok_or("the agent is gone")?;
     let commands = alpha.input().commands;
-    if commands.iter().any(|duty| (duty / expected - 1.0).abs() > DUTY_TOLERANCE) {
+    if commands
+        .iter()
+        .any(|duty| (duty / expected - 1.0).abs() > DUTY_TOLERANCE)
+    {
         return Err(format!("duty is {commands:?}, it should be {expected}").into());
     }
     let rate = ending.report.time_s / wall_s;
-    Ok(format!("{expected:.6}, flown {rate:.0} times faster than real time"))
+    Ok(format!(
+        "{expected:.6}, flown {rate:.0} times faster than real time"
+    ))
 }
 
 /// Writes a recording to the folder that temporary files go to, and reads it back.
@@ -97,7 +124,9 @@ fn recordings() -> Result<String, Box<dyn Error>> {
     let path = std::env::temp_dir().join(format!("sifre-doctor-{}.csv", std::process::id()));
     let write = || -> Result<usize, Box<dyn Error>> {
         let mut flight = Scenario::from_toml_str(HOVER, "hover")?.build(&())?.fly()?;
-        flight.simulation.attach(flight.output.step_s, CsvBox::new(File::create(&path)?))?;
+        flight
+            .simulation
+            .attach(flight.output.step_s, CsvBox::new(File::create(&path)?))?;
         flight.run(&mut ())?;
         flight.simulation.finish_recordings()?;
         Ok(Recording::from_csv(File::open(&path)?)?.len())

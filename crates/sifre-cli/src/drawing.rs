@@ -10,8 +10,8 @@ pub(crate) fn write(path: &Path, figure: &Figure) -> Result<(), Failure> {
     let svg = figure.draw();
     match path.extension().and_then(|ending| ending.to_str()) {
         Some("png") => {
-            let png = raster::png(&svg)
-                .map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))?;
+            let png =
+                raster::png(&svg).map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))?;
             disk::write(path, png)
         }
         Some("svg") => disk::write(path, svg.document()),

@@ -24,7 +24,11 @@ pub(crate) fn asked() -> bool {
 
 /// Whether a run is to go on.
 pub(crate) fn flow() -> ControlFlow<()> {
-    if asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    if asked() {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
 }
 
 /// An observer that ends a run when asked.

@@ -60,7 +60,9 @@ struct Difference {
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
     if scenario.quadrotor.is_empty() {
-        return Err(Failure::Usage("there is no quadrotor in it: only quadrotors have levels".to_owned()));
+        return Err(Failure::Usage(
+            "there is no quadrotor in it: only quadrotors have levels".to_owned(),
+        ));
     }
     interrupt::listen();
     let files = Beside::of(&arguments.scenario);
@@ -74,9 +76,14 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
             return Ok(Exit::Interrupted);
         }
     }
-    let agents: Vec<String> = scenario.quadrotor.iter().map(|agent| agent.name.clone()).collect();
-    let differences: Vec<Vec<Difference>> =
-        (0..agents.len()).map(|k| differences(&flights, k, &agents[k])).collect();
+    let agents: Vec<String> = scenario
+        .quadrotor
+        .iter()
+        .map(|agent| agent.name.clone())
+        .collect();
+    let differences: Vec<Vec<Difference>> = (0..agents.len())
+        .map(|k| differences(&flights, k, &agents[k]))
+        .collect();
     if let Some(path) = &arguments.plot {
         drawing::write(path, &figure(&agents, &differences))?;
     }
@@ -108,7 +115,9 @@ fn at_level(scenario: &Scenario, level: Level, keep: bool) -> Scenario {
 
 fn fly(scenario: &Scenario, level: Level, files: &dyn Files) -> Result<Flown, Failure> {
     let mut flight = scenario.build(files)?.fly()?;
-    let id = flight.simulation.attach(flight.output.step_s, MemoryBox::default())?;
+    let id = flight
+        .simulation
+        .attach(flight.output.step_s, MemoryBox::default())?;
     let begin = Instant::now();
     let ending = flight.run(&mut interrupt::watch())?;
     let wall_s = begin.elapsed().as_secs_f64();
@@ -128,14 +137,30 @@ fn differences(flights: &[(Scenario, Flown)], place: usize, agent: &str) -> Vec<
         return Vec::new();
     };
     let columns = |recording: &Recording| {
-        ["position.x", "position.y", "position.z", "attitude.roll", "attitude.pitch", "attitude.yaw"]
-            .map(|name| recording.column(&format!("{agent}.{name}")).map_or_else(Vec::new, Iterator::collect::<Vec<f64>>))
+        [
+            "position.x",
+            "position.y",
+            "position.z",
+            "attitude.roll",
+            "attitude.pitch",
+            "attitude.yaw",
+        ]
+        .map(|name| {
+            recording
+                .column(&format!("{agent}.{name}"))
+                .map_or_else(Vec::new, Iterator::collect::<Vec<f64>>)
+        })
     };
     let reference = columns(&best.recording);
     let one = |(scenario, flown): &(Scenario, Flown)| {
         let here = columns(&flown.recording);
         let rows = flown.recording.len().min(best.recording.len());
-        let position = |k: usize| (0..3).map(|i| (here[i][k] - reference[i][k]).powi(2)).sum::<f64>().sqrt();
+        let position = |k: usize| {
+            (0..3)
+                .map(|i| (here[i][k] - reference[i][k]).powi(2))
+                .sum::<f64>()
+                .sqrt()
+        };
         let rotation = |columns: &[Vec<f64>; 6], k: usize| {
             let (roll, pitch, yaw) = (columns[3][k], columns[4][k], columns[5][k]);
             EulerAngles { roll, pitch, yaw }.rotation().matrix
@@ -175,11 +200,22 @@ fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[(Scenari
     let mut table = Table::new();
     table.load_style(UTF8_HORIZONTAL_ONLY);
     table.set_header([
-        "agent", "level", "law", "position rms, m", "max, m", "attitude rms, °", "max, °", "computing, s", "end",
+        "agent",
+        "level",
+        "law",
+        "position rms, m",
+        "max, m",
+        "attitude rms, °",
+        "max, °",
+        "computing, s",
+        "end",
     ]);
     for (agent, differences) in agents.iter().zip(differences) {
         for (difference, (_, flown)) in differences.iter().zip(flights) {
-            let (position, attitude) = (Size::of(&difference.position_m), Size::of(&difference.attitude_deg));
+            let (position, attitude) = (
+                Size::of(&difference.position_m),
+                Size::of(&difference.attitude_deg),
+            );
             table.add_row([
                 agent.clone(),
                 difference.level.number().to_string(),
@@ -205,20 +241,26 @@ fn as_json(
     flights: &[(Scenario, Flown)],
 ) -> serde_json::Value {
     let rows = agents.iter().zip(differences).flat_map(|(agent, differences)| {
-        differences.iter().zip(flights).map(move |(difference, (_, flown))| {
-            let (position, attitude) = (Size::of(&difference.position_m), Size::of(&difference.attitude_deg));
-            json!({
-                "agent": agent,
-                "level": difference.level.number(),
-                "law": difference.law.name(),
-                "position_rms_m": position.rms,
-                "position_max_m": position.largest,
-                "attitude_rms_deg": attitude.rms,
-                "attitude_max_deg": attitude.largest,
-                "wall_s": flown.wall_s,
-                "end": flown.status,
+        differences
+            .iter()
+            .zip(flights)
+            .map(move |(difference, (_, flown))| {
+                let (position, attitude) = (
+                    Size::of(&difference.position_m),
+                    Size::of(&difference.attitude_deg),
+                );
+                json!({
+                    "agent": agent,
+                    "level": difference.level.number(),
+                    "law": difference.law.name(),
+                    "position_rms_m": position.rms,
+                    "position_max_m": position.largest,
+                    "attitude_rms_deg": attitude.rms,
+                    "attitude_max_deg": attitude.largest,
+                    "wall_s": flown.wall_s,
+                    "end": flown.status,
+                })
             })
-        })
     });
     json!({ "differences_to_level": 5, "rows": rows.collect::<Vec<_>>() })
 }
@@ -226,12 +268,18 @@ fn as_json(
 /// A column per quadrotor: position above, attitude below.
 fn figure(agents: &[String], differences: &[Vec<Difference>]) -> Figure {
     let panel = |label: &str, agent: &str, differences: &[Difference], of: fn(&Difference) -> &[f64]| {
-        let lower = differences.iter().filter(|difference| difference.level != Level::Five);
+        let lower = differences
+            .iter()
+            .filter(|difference| difference.level != Level::Five);
         let panel = Panel::new("Time *t*, s", label).caption(agent);
         lower.fold(panel, |panel, difference| {
             let number = difference.level.number();
             let name = format!("{}, {}", level_name(number), difference.law.name());
-            let points = difference.times_s.iter().copied().zip(of(difference).iter().copied());
+            let points = difference
+                .times_s
+                .iter()
+                .copied()
+                .zip(of(difference).iter().copied());
             panel.line(name, level_style(number), points)
         })
     };
@@ -244,5 +292,9 @@ fn figure(agents: &[String], differences: &[Vec<Difference>]) -> Figure {
         let label = "Attitude, difference to level 5, °";
         figure = figure.panel(panel(label, "", differences, |d| &d.attitude_deg));
     }
-    figure.legends(if agents.len() == 1 { Legends::Common } else { Legends::EachPanel })
+    figure.legends(if agents.len() == 1 {
+        Legends::Common
+    } else {
+        Legends::EachPanel
+    })
 }

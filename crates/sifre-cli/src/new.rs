@@ -9,19 +9,37 @@ use std::path::PathBuf;
 pub(crate) const READY: [(&str, &str); 16] = [
     ("template", include_str!("../template.toml")),
     ("hover", include_str!("../../../scenarios/hover.toml")),
-    ("step-in-height", include_str!("../../../scenarios/step-in-height.toml")),
-    ("horizontal-step", include_str!("../../../scenarios/horizontal-step.toml")),
+    (
+        "step-in-height",
+        include_str!("../../../scenarios/step-in-height.toml"),
+    ),
+    (
+        "horizontal-step",
+        include_str!("../../../scenarios/horizontal-step.toml"),
+    ),
     ("helix", include_str!("../../../scenarios/helix.toml")),
     ("waypoints", include_str!("../../../scenarios/waypoints.toml")),
     ("gust", include_str!("../../../scenarios/gust.toml")),
     ("crazyflie", include_str!("../../../scenarios/crazyflie.toml")),
     ("payload", include_str!("../../../scenarios/payload.toml")),
-    ("level-change", include_str!("../../../scenarios/level-change.toml")),
+    (
+        "level-change",
+        include_str!("../../../scenarios/level-change.toml"),
+    ),
     ("track-fixed", include_str!("../../../scenarios/track-fixed.toml")),
     ("lost-view", include_str!("../../../scenarios/lost-view.toml")),
-    ("power-transmission-10s", include_str!("../../../scenarios/power-transmission-10s.toml")),
-    ("power-transmission-20s", include_str!("../../../scenarios/power-transmission-20s.toml")),
-    ("two-quadrotors", include_str!("../../../scenarios/two-quadrotors.toml")),
+    (
+        "power-transmission-10s",
+        include_str!("../../../scenarios/power-transmission-10s.toml"),
+    ),
+    (
+        "power-transmission-20s",
+        include_str!("../../../scenarios/power-transmission-20s.toml"),
+    ),
+    (
+        "two-quadrotors",
+        include_str!("../../../scenarios/two-quadrotors.toml"),
+    ),
     ("swarm", include_str!("../../../scenarios/swarm.toml")),
 ];
 

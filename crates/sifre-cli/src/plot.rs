@@ -29,7 +29,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         eprintln!("note: {damage}; drawing the {} rows before it", recording.len());
     }
     if recording.is_empty() {
-        return Err(Failure::Usage(format!("{}: there are no rows", arguments.recording.display())));
+        return Err(Failure::Usage(format!(
+            "{}: there are no rows",
+            arguments.recording.display()
+        )));
     }
     let columns: Vec<Vec<Panel>> = chosen(recording, &arguments.agents)?
         .iter()
@@ -38,9 +41,14 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         .collect();
     if columns.is_empty() {
         let path = arguments.recording.display();
-        return Err(Failure::Usage(format!("{path}: it has no channels that are drawn")));
+        return Err(Failure::Usage(format!(
+            "{path}: it has no channels that are drawn"
+        )));
     }
-    let out = arguments.out.clone().unwrap_or_else(|| arguments.recording.with_extension("svg"));
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| arguments.recording.with_extension("svg"));
     drawing::write(&out, &figure(columns))?;
     if json {
         report::print(&serde_json::json!({
@@ -66,7 +74,9 @@ fn chosen(recording: &Recording, wanted: &[String]) -> Result<Vec<String>, Failu
     }
     if let Some(missing) = wanted.iter().find(|name| !known.contains(name)) {
         let known = known.join(", ");
-        return Err(Failure::Usage(format!("--agent {missing}: the recording has {known}")));
+        return Err(Failure::Usage(format!(
+            "--agent {missing}: the recording has {known}"
+        )));
     }
     known.retain(|name| wanted.is_empty() || wanted.contains(name));
     Ok(known)
@@ -96,7 +106,10 @@ const QUADROTOR: [(&str, &[Curve], &[Curve]); 4] = [
     (
         "Position, m",
         &[("position.x", "north", 1.0), ("position.y", "east", 1.0)],
-        &[("reference.position.x", "reference", 1.0), ("reference.position.y", "", 1.0)],
+        &[
+            ("reference.position.x", "reference", 1.0),
+            ("reference.position.y", "", 1.0),
+        ],
     ),
     (
         "Height −*z*, m",
@@ -138,7 +151,10 @@ const STATION: [(&str, &[Curve], &[Curve]); 4] = [
     ),
     (
         "Light, W",
-        &[("power.received", "received", 1.0), ("power.missed", "missed", 1.0)],
+        &[
+            ("power.received", "received", 1.0),
+            ("power.missed", "missed", 1.0),
+        ],
         &[],
     ),
     ("Range *R*, m", &[("range", "range", 1.0)], &[]),
@@ -147,8 +163,14 @@ const STATION: [(&str, &[Curve], &[Curve]); 4] = [
 /// The panels of an agent, without curves that are not in the recording.
 fn panels(recording: &Recording, agent: &str) -> Vec<Panel> {
     let has = |channel: &str| recording.column(&format!("{agent}.{channel}")).is_some();
-    let drawn = if has("power.received") || has("gimbal.pan") { STATION } else { QUADROTOR };
-    let shown = drawn.iter().filter(|(_, curves, _)| curves.iter().any(|(channel, ..)| has(channel)));
+    let drawn = if has("power.received") || has("gimbal.pan") {
+        STATION
+    } else {
+        QUADROTOR
+    };
+    let shown = drawn
+        .iter()
+        .filter(|(_, curves, _)| curves.iter().any(|(channel, ..)| has(channel)));
     shown
         .enumerate()
         .map(|(row, (label, curves, references))| {
@@ -171,8 +193,10 @@ fn line(recording: &Recording, agent: &str, panel: Panel, curve: &Curve, look: q
     let (channel, name, factor) = *curve;
     match recording.column(&format!("{agent}.{channel}")) {
         Some(values) => {
-            let points: Vec<(f64, f64)> =
-                recording.times_s().zip(values.map(|value| value * factor)).collect();
+            let points: Vec<(f64, f64)> = recording
+                .times_s()
+                .zip(values.map(|value| value * factor))
+                .collect();
             panel.line(name, look, points)
         }
         None => panel,

@@ -62,7 +62,11 @@ impl Report {
     /// For people.
     pub(crate) fn text(&self) -> String {
         let report = &self.ending.report;
-        let rate = if self.wall_s > 0.0 { report.time_s / self.wall_s } else { 0.0 };
+        let rate = if self.wall_s > 0.0 {
+            report.time_s / self.wall_s
+        } else {
+            0.0
+        };
         let mut text = format!(
             "{}: {} at {} s ({:.3} s of computing, {rate:.0} times real time)\n",
             self.scenario, report.status, report.time_s, self.wall_s

@@ -43,7 +43,11 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         scenario.output.path = None;
     }
     interrupt::listen();
-    let bar = if arguments.quiet || json { ProgressBar::hidden() } else { progress_bar(scenario.duration_s) };
+    let bar = if arguments.quiet || json {
+        ProgressBar::hidden()
+    } else {
+        progress_bar(scenario.duration_s)
+    };
     let report = fly(&scenario, &Beside::of(&arguments.scenario), &bar)?;
     bar.finish_and_clear();
     for note in &report.notes {
@@ -75,7 +79,9 @@ fn fly(scenario: &Scenario, files: &dyn Files, bar: &ProgressBar) -> Result<Repo
     let ending = flight.run(&mut Bar { bar })?;
     let wall_s = begin.elapsed().as_secs_f64();
     let metrics = flight.simulation.detach::<MetricsBox>(metrics);
-    let metrics = metrics.and_then(Result::ok).map_or_else(Vec::new, |m| m.metrics());
+    let metrics = metrics
+        .and_then(Result::ok)
+        .map_or_else(Vec::new, |m| m.metrics());
     finish(&mut flight, path.as_deref(), ending.end)?;
     Ok(Report {
         scenario: scenario.name.clone(),

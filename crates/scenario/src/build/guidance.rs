@@ -117,9 +117,7 @@ impl Guidance for Task {
             Self::Hold(reference) => *reference,
             Self::Steps { first, schedule, .. } => *schedule.at(now.time_ns).unwrap_or(first),
             Self::Mission(mission) => mission.reference(now),
-            Self::Circle(turn) => {
-                Reference::following(turn.flat_output(now.time_s), turn.gravity, turn.law)
-            }
+            Self::Circle(turn) => Reference::following(turn.flat_output(now.time_s), turn.gravity, turn.law),
             Self::Follow(follow) => follow.reference(now),
         }
     }
@@ -179,7 +177,13 @@ fn set_points(agent: &str, steps: &[SetPoint]) -> Result<Task, ScenarioError> {
 }
 
 fn turn(agent: &str, circle: &Circle, gravity: f64, law: TiltLaw) -> Result<Task, ScenarioError> {
-    let more = [circle.radius_m, circle.period_s, circle.climb_m_s, circle.bearing_deg, circle.yaw_deg];
+    let more = [
+        circle.radius_m,
+        circle.period_s,
+        circle.climb_m_s,
+        circle.bearing_deg,
+        circle.yaw_deg,
+    ];
     finite(agent, circle.centre_m.iter().chain(&more))?;
     if circle.period_s == 0.0 {
         return Err(ScenarioError::Number {
@@ -190,11 +194,7 @@ fn turn(agent: &str, circle: &Circle, gravity: f64, law: TiltLaw) -> Result<Task
         });
     }
     let circle = *circle;
-    Ok(Task::Circle(Turn {
-        circle,
-        gravity,
-        law,
-    }))
+    Ok(Task::Circle(Turn { circle, gravity, law }))
 }
 
 fn finite<'a>(agent: &str, numbers: impl IntoIterator<Item = &'a f64>) -> Result<(), ScenarioError> {

@@ -121,7 +121,10 @@ impl Scenario {
             return Err(ScenarioError::Name { name });
         }
         let stop = &self.stop;
-        let corners = stop.outside.iter().flat_map(|b| b.from_m.into_iter().chain(b.to_m));
+        let corners = stop
+            .outside
+            .iter()
+            .flat_map(|b| b.from_m.into_iter().chain(b.to_m));
         for value in corners.chain([stop.ground_height_m]) {
             finite("stop", "a length", value)?;
         }

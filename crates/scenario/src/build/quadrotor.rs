@@ -47,7 +47,9 @@ pub(super) fn add(
         substeps: file.substeps,
         ..setup
     };
-    built.members.push(Member::new(Quadrotor::new(setup)?, file.step_s));
+    built
+        .members
+        .push(Member::new(Quadrotor::new(setup)?, file.step_s));
     built.agents.push(AgentInfo {
         name: file.name.clone(),
         kind: AgentKind::Quadrotor {
@@ -83,7 +85,11 @@ fn script(file: &QuadrotorFile) -> Result<Script, ScenarioError> {
         let agent = file.name.clone();
         move |source: ScheduleError| ScenarioError::Schedule { agent, key, source }
     };
-    let steps = file.wind.steps.iter().map(|step| (step.from_s, step.velocity_m_s));
+    let steps = file
+        .wind
+        .steps
+        .iter()
+        .map(|step| (step.from_s, step.velocity_m_s));
     let before = file.wind.velocity_m_s;
     // Air that is still before the first step needs no entry of its own.
     let first = (before != [0.0; 3]).then_some((0.0, before));

@@ -97,7 +97,9 @@ fn position(
     if let Some(file) = scenario.ets.iter().find(|other| other.name == name) {
         return match file.position_m {
             Some(at) => Ok(Some(at.into())),
-            None => Ok(Some(station(name, &file.station, files)?.pedestal.position.into())),
+            None => Ok(Some(
+                station(name, &file.station, files)?.pedestal.position.into(),
+            )),
         };
     }
     let target = scenario.target.iter().find(|other| other.name == name);

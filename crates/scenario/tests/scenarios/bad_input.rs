@@ -24,29 +24,50 @@ fn says(text: &str, parts: &[&str]) {
 fn exact_files_that_are_wrong_are_told_with_line_and_key() {
     says("name = ", &["test.toml:1:", "not TOML"]);
     says("name = \"x\"", &["`duration_s` is missing"]);
-    says(&one(SECOND, "levle = 3", ""), &["test.toml:6:1", "no key `quadrotor[0].levle`", "level"]);
-    says(&one(SECOND, "level = 6", ""), &["test.toml:6:", "`quadrotor[0].level`", "6"]);
-    says(&one(SECOND, "phenomena = [\"rain\"]", ""), &["`quadrotor[0].phenomena", "rain", "drag"]);
+    says(
+        &one(SECOND, "levle = 3", ""),
+        &["test.toml:6:1", "no key `quadrotor[0].levle`", "level"],
+    );
+    says(
+        &one(SECOND, "level = 6", ""),
+        &["test.toml:6:", "`quadrotor[0].level`", "6"],
+    );
+    says(
+        &one(SECOND, "phenomena = [\"rain\"]", ""),
+        &["`quadrotor[0].phenomena", "rain", "drag"],
+    );
     // Inside a table that is told apart by its kind.
     let helix = "name = \"x\"\nduration_s = 1\n[[quadrotor]]\nname = \"a\"\n\
                  reference = { kind = \"hold\", position_m = [0, 0, -1], radius_m = 2 }";
-    says(helix, &["test.toml:5:", "no key `quadrotor[0].reference.radius_m`"]);
+    says(
+        helix,
+        &["test.toml:5:", "no key `quadrotor[0].reference.radius_m`"],
+    );
     says(&helix.replace("hold", "hover"), &["hover", "polynomial"]);
 }
 
 #[test]
 fn exact_missing_vehicles_and_stations() {
-    says(&one(SECOND, "vehicle = \"tello\"", ""), &["\"alpha\"", "\"tello\"", "qball-x4, qball-x4-vendor, crazyflie"]);
+    says(
+        &one(SECOND, "vehicle = \"tello\"", ""),
+        &["\"alpha\"", "\"tello\"", "qball-x4, qball-x4-vendor, crazyflie"],
+    );
     let ets = "[[ets]]\nname = \"station\"\ntracks = \"alpha\"\nstation = \"moon.toml\"";
     says(&one(SECOND, "", ets), &["\"station\"", "moon.toml", "nominal"]);
     // A vehicle that lacks what a level needs.
-    says(&one(SECOND, "vehicle = \"qball-x4-vendor\"\nlevel = 5", ""), &["\"alpha\""]);
+    says(
+        &one(SECOND, "vehicle = \"qball-x4-vendor\"\nlevel = 5", ""),
+        &["\"alpha\""],
+    );
 }
 
 #[test]
 fn exact_parameters_that_the_vehicle_does_not_have() {
     let parameter = |key: &str| one(SECOND, &format!("parameters = {{ {key} }}"), "");
-    says(&parameter("airframe = { colour = 3 }"), &["parameters.airframe.colour", "mass_kg"]);
+    says(
+        &parameter("airframe = { colour = 3 }"),
+        &["parameters.airframe.colour", "mass_kg"],
+    );
     says(&parameter("airframe = { mass_kg = -1 }"), &["mass", "-1"]);
     says(&parameter("airframe = 3"), &["parameters.airframe", "table"]);
     says(&parameter("rotors = 3"), &["parameters.rotors"]);
@@ -54,10 +75,22 @@ fn exact_parameters_that_the_vehicle_does_not_have() {
 
 #[test]
 fn exact_agents_that_look_at_nobody_or_at_themselves() {
-    let ets = |tracks: &str| one(SECOND, "", &format!("[[ets]]\nname = \"station\"\ntracks = \"{tracks}\""));
+    let ets = |tracks: &str| {
+        one(
+            SECOND,
+            "",
+            &format!("[[ets]]\nname = \"station\"\ntracks = \"{tracks}\""),
+        )
+    };
     says(&ets("station"), &["\"station\"", "is itself", "alpha"]);
-    says(&ets("bravo"), &["\"station\"", "\"bravo\"", "not in the simulation", "alpha"]);
-    says(&one(SECOND, "facing = \"bravo\"", ""), &["\"bravo\"", "not in the simulation"]);
+    says(
+        &ets("bravo"),
+        &["\"station\"", "\"bravo\"", "not in the simulation", "alpha"],
+    );
+    says(
+        &one(SECOND, "facing = \"bravo\"", ""),
+        &["\"bravo\"", "not in the simulation"],
+    );
     let follow = |agent: &str| {
         one(SECOND, "", "").replace(
             "{ kind = \"hold\", position_m = [0, 0, -1] }",
@@ -72,37 +105,82 @@ fn exact_agents_that_look_at_nobody_or_at_themselves() {
 fn exact_names() {
     let twice = "[[target]]\nname = \"alpha\"\npath = { kind = \"fixed\", position_m = [0, 0, 0] }";
     says(&one(SECOND, "", twice), &["two agents", "\"alpha\""]);
-    says(&one(SECOND, "", &twice.replace("alpha", "a.b")), &["\"a.b\"", "dots"]);
-    says(&one(SECOND, "", &twice.replace("alpha", "")), &["must not be empty"]);
+    says(
+        &one(SECOND, "", &twice.replace("alpha", "a.b")),
+        &["\"a.b\"", "dots"],
+    );
+    says(
+        &one(SECOND, "", &twice.replace("alpha", "")),
+        &["must not be empty"],
+    );
     says("name = \"x\"\nduration_s = 1", &["at least one agent"]);
 }
 
 #[test]
 fn exact_times_and_steps() {
-    says(&one("duration_s = -1.0", "", ""), &["duration_s = -1", "after the start"]);
+    says(
+        &one("duration_s = -1.0", "", ""),
+        &["duration_s = -1", "after the start"],
+    );
     says(&one("duration_s = 0", "", ""), &["duration_s = 0"]);
     says(&one("duration_s = nan", "", ""), &["duration_s = NaN"]);
     says(&one("duration_s = 1e99", "", ""), &["duration_s"]);
     // Two steps have a common tick as long as both are whole nanoseconds; a third of a millisecond is none.
-    says(&one(SECOND, "step_s = 0.0003333333333", ""), &["`quadrotor[0].step_s`", "whole number of nanoseconds"]);
-    says(&one(SECOND, "step_s = 0", ""), &["`quadrotor[0].step_s`", "positive"]);
-    says(&one(SECOND, "", "[output]\nstep_s = -1"), &["`output.step_s`", "positive"]);
+    says(
+        &one(SECOND, "step_s = 0.0003333333333", ""),
+        &["`quadrotor[0].step_s`", "whole number of nanoseconds"],
+    );
+    says(
+        &one(SECOND, "step_s = 0", ""),
+        &["`quadrotor[0].step_s`", "positive"],
+    );
+    says(
+        &one(SECOND, "", "[output]\nstep_s = -1"),
+        &["`output.step_s`", "positive"],
+    );
     // A frame every 33 ms can't be had at a step of a tenth of a second.
     let slow = "[[ets]]\nname = \"station\"\ntracks = \"alpha\"\nstep_s = 0.1";
     says(&one(SECOND, "", slow), &["\"station\"", "0.1 s"]);
-    says(&one(SECOND, "wind = { steps = [{ from_s = 2, velocity_m_s = [0, 0, 0] }, { from_s = 1, velocity_m_s = [0, 0, 0] }] }", ""), &["wind.steps", "later"]);
-    says(&one(SECOND, "level_changes = [{ from_s = -1, level = 2 }]", ""), &["level_changes"]);
+    says(
+        &one(
+            SECOND,
+            "wind = { steps = [{ from_s = 2, velocity_m_s = [0, 0, 0] }, { from_s = 1, velocity_m_s = [0, 0, 0] }] }",
+            "",
+        ),
+        &["wind.steps", "later"],
+    );
+    says(
+        &one(SECOND, "level_changes = [{ from_s = -1, level = 2 }]", ""),
+        &["level_changes"],
+    );
 }
 
 #[test]
 fn exact_controllers_and_references() {
-    says(&one(SECOND, "level = 2\ncontroller = { kind = \"c3\" }", ""), &["\"alpha\"", "3"]);
-    says(&one(SECOND, "controller = { height = { settling_time_s = 0 } }", ""), &["height.settling_time_s", "positive"]);
-    let reference = |text: &str| {
-        one(SECOND, "", "").replace("{ kind = \"hold\", position_m = [0, 0, -1] }", text)
-    };
-    says(&reference("{ kind = \"hold\", position_m = [0, nan, 0] }"), &["\"alpha\"", "NaN", "finite"]);
-    says(&reference("{ kind = \"steps\", steps = [] }"), &["reference.steps", "at least one"]);
-    says(&reference("{ kind = \"waypoints\", waypoints = [{ time_s = 0, position_m = [0, 0, 0] }] }"), &["at least 2"]);
-    says(&reference("{ kind = \"circle\", centre_m = [0, 0, -1], radius_m = 1, period_s = 0 }"), &["period_s", "zero"]);
+    says(
+        &one(SECOND, "level = 2\ncontroller = { kind = \"c3\" }", ""),
+        &["\"alpha\"", "3"],
+    );
+    says(
+        &one(SECOND, "controller = { height = { settling_time_s = 0 } }", ""),
+        &["height.settling_time_s", "positive"],
+    );
+    let reference =
+        |text: &str| one(SECOND, "", "").replace("{ kind = \"hold\", position_m = [0, 0, -1] }", text);
+    says(
+        &reference("{ kind = \"hold\", position_m = [0, nan, 0] }"),
+        &["\"alpha\"", "NaN", "finite"],
+    );
+    says(
+        &reference("{ kind = \"steps\", steps = [] }"),
+        &["reference.steps", "at least one"],
+    );
+    says(
+        &reference("{ kind = \"waypoints\", waypoints = [{ time_s = 0, position_m = [0, 0, 0] }] }"),
+        &["at least 2"],
+    );
+    says(
+        &reference("{ kind = \"circle\", centre_m = [0, 0, -1], radius_m = 1, period_s = 0 }"),
+        &["period_s", "zero"],
+    );
 }

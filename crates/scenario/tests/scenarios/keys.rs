@@ -25,7 +25,12 @@ fn exact_agents_are_found_by_number_and_by_name() {
 #[test]
 fn exact_every_boundary_condition_of_a_pass_is_a_key() {
     let mut table: Table = toml::from_str(&ready("power-transmission-10s")).unwrap();
-    for (key, value) in [("x_0_m", 5.0), ("x_dot_0_m_s", -1.5), ("x_f_m", -8.0), ("x_dot_f_m_s", 1.5)] {
+    for (key, value) in [
+        ("x_0_m", 5.0),
+        ("x_dot_0_m_s", -1.5),
+        ("x_f_m", -8.0),
+        ("x_dot_f_m_s", 1.5),
+    ] {
         set(&mut table, &format!("quadrotor.alpha.reference.{key}"), value).unwrap();
     }
     let scenario = Scenario::from_table(&table, "changed").unwrap();
@@ -44,11 +49,16 @@ fn exact_wrong_paths_say_what_there_is() {
     let mut table = table();
     let mut refuse = |path: &str| set(&mut table, path, 1).unwrap_err();
     let missing = refuse("quadrotor.charlie.level");
-    assert!(matches!(&missing, KeyError::NoEntry { entry, known, .. } if entry == "charlie" && known == "alpha, bravo"));
+    assert!(
+        matches!(&missing, KeyError::NoEntry { entry, known, .. } if entry == "charlie" && known == "alpha, bravo")
+    );
     assert!(matches!(refuse("quadrotor.2.level"), KeyError::NoEntry { .. }));
     assert!(matches!(refuse("name.first"), KeyError::NotATable { .. }));
     assert!(matches!(refuse("quadrotor..level"), KeyError::Empty { .. }));
-    assert!(matches!(get(&self::table(), "quadrotor.0.mass"), Err(KeyError::NoKey { .. })));
+    assert!(matches!(
+        get(&self::table(), "quadrotor.0.mass"),
+        Err(KeyError::NoKey { .. })
+    ));
     // A key that scenarios don't have is refused when the table is read.
     set(&mut table, "quadrotor.alpha.mass", 1).unwrap();
     let error = Scenario::from_table(&table, "changed").unwrap_err().to_string();
@@ -62,7 +72,12 @@ fn agree_the_schema_and_the_types_know_the_same_keys() {
     assert_eq!(schema["additionalProperties"], false);
     let written = toml::Value::try_from(Scenario::from_table(&table(), "ready").unwrap()).unwrap();
     let properties = |schema: &serde_json::Value| -> Vec<String> {
-        schema["properties"].as_object().unwrap().keys().cloned().collect()
+        schema["properties"]
+            .as_object()
+            .unwrap()
+            .keys()
+            .cloned()
+            .collect()
     };
     for (key, list) in written.as_table().unwrap() {
         assert!(properties(&schema).contains(key), "{key}");

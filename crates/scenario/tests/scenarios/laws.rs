@@ -22,10 +22,17 @@ fn prop_wind_pushes_where_the_air_goes() {
             [flown.last("alpha.position.x"), flown.last("alpha.position.y")]
         };
         let (south, north, east) = (pushed(-5, 0), pushed(5, 0), pushed(0, 5));
-        assert!(south[0] < -0.01, "wind from the north must push south, not to x = {}", south[0]);
+        assert!(
+            south[0] < -0.01,
+            "wind from the north must push south, not to x = {}",
+            south[0]
+        );
         assert!(north[0] > 0.01 && east[1] > 0.01, "{north:?} {east:?}");
         // Drag is k |v| v, the same either way, and the controller is odd about hover.
-        assert!((south[0] + north[0]).abs() < 1e-3 * north[0], "{south:?} {north:?}");
+        assert!(
+            (south[0] + north[0]).abs() < 1e-3 * north[0],
+            "{south:?} {north:?}"
+        );
     }
 }
 
@@ -42,7 +49,10 @@ fn exact_offset_in_steady_wind() {
     let offset = drag * 16.0 / vehicle.airframe.mass / frequency.powi(2);
     // Tilt is some degrees: cosines between body and world are left out, 1 - cos(0.1) = 0.5 %, twice.
     let found = -flown.last("alpha.position.x");
-    assert!((found / offset - 1.0).abs() < 0.02, "{found} m instead of {offset} m");
+    assert!(
+        (found / offset - 1.0).abs() < 0.02,
+        "{found} m instead of {offset} m"
+    );
 }
 
 /// Without rotors that lift, a fall ends at the ground, at the time that Galilei gives it.
@@ -52,7 +62,10 @@ fn exact_nothing_falls_under_the_ground() {
     let vehicle = quad_dynamics::Vehicle::qball_x4();
     let g = vehicle.environment.gravity;
     let duty = vehicle.airframe.mass * g / (4.0 * vehicle.linear_rotor.thrust_gain);
-    let drop = format!("command_offsets = [{{ from_s = 0, duty = [{0}, {0}, {0}, {0}] }}]", -40.0 * duty);
+    let drop = format!(
+        "command_offsets = [{{ from_s = 0, duty = [{0}, {0}, {0}, {0}] }}]",
+        -40.0 * duty
+    );
     let flown = fly(&hover(2, &drop, ""));
     assert_eq!(flown.ending.end, End::Early);
     let RunStatus::Below { agent, height_m } = &flown.ending.report.status else {
@@ -79,12 +92,17 @@ fn exact_inertia_matters() {
     let offset = format!("command_offsets = [{{ from_s = 0, duty = [0, 0, {duty}, -{duty}] }}]");
     for factor in [1.0, 2.0] {
         let inertia = factor * vehicle.airframe.inertia[(0, 0)];
-        let more = format!("parameters = {{ airframe = {{ inertia_xx_kg_m2 = {inertia}, inertia_yy_kg_m2 = {inertia} }} }}\n{offset}");
+        let more = format!(
+            "parameters = {{ airframe = {{ inertia_xx_kg_m2 = {inertia}, inertia_yy_kg_m2 = {inertia} }} }}\n{offset}"
+        );
         let flown = fly(&hover(2, &more, "").replace("duration_s = 4.0", "duration_s = 0.01"));
         let expected = 2.0 * gain * duty * arm / inertia * 0.01;
         let found = flown.last("alpha.body_rate.p");
         // c2 answers with up to 2 ζ ω = 23 /s times the rate, on average half of it in 10 ms: a tenth.
-        assert!((found / expected - 1.0).abs() < 0.15, "{found} rad/s instead of {expected} rad/s");
+        assert!(
+            (found / expected - 1.0).abs() < 0.15,
+            "{found} rad/s instead of {expected} rad/s"
+        );
         assert!(found > 0.0);
     }
 }
@@ -93,12 +111,16 @@ fn exact_inertia_matters() {
 #[test]
 fn exact_ends() {
     let boxed = "[stop]\noutside = { from_m = [-1, -1, -2.5], to_m = [1, 1, 0] }";
-    let away = hover(3, "start = { position_m = [0, 0, -2], velocity_m_s = [2, 0, 0] }", boxed);
+    let away = hover(
+        3,
+        "start = { position_m = [0, 0, -2], velocity_m_s = [4, 0, 0] }",
+        boxed,
+    );
     let flown = fly(&away);
     assert_eq!(flown.ending.end, End::Early);
     let x = flown.last("alpha.position.x");
-    // At 2 m/s within a millisecond of the wall, and recorded there every 10 ms.
-    assert!((0.97..1.01).contains(&x), "{x}");
+    // Critically damped from 4 m/s it would get to v / (ω e) = 1.26 m; the last row is up to 10 ms before the wall.
+    assert!((0.95..1.01).contains(&x), "{x}");
     assert!(flown.ending.report.status.to_string().contains("left its box"));
 
     let arrived = fly(&hover(3, "", "[stop]\narrived_within_m = 0.01"));

@@ -24,11 +24,25 @@ pub(crate) fn fly(text: &str) -> Flown {
     let built = scenario.build(&()).unwrap_or_else(|error| panic!("{error}"));
     let mut flight = built.fly().unwrap_or_else(|error| panic!("{error}"));
     let step = StepSize::from_seconds(0.01).expect("ten milliseconds");
-    let rows = flight.simulation.attach(step, MemoryBox::default()).expect("at the start");
-    let sums = flight.simulation.attach(step, MetricsBox::default()).expect("at the start");
+    let rows = flight
+        .simulation
+        .attach(step, MemoryBox::default())
+        .expect("at the start");
+    let sums = flight
+        .simulation
+        .attach(step, MetricsBox::default())
+        .expect("at the start");
     let ending = flight.run(&mut ()).expect("a time of the clock");
-    let memory = flight.simulation.detach::<MemoryBox>(rows).expect("attached").expect("memory");
-    let metrics = flight.simulation.detach::<MetricsBox>(sums).expect("attached").expect("memory");
+    let memory = flight
+        .simulation
+        .detach::<MemoryBox>(rows)
+        .expect("attached")
+        .expect("memory");
+    let metrics = flight
+        .simulation
+        .detach::<MetricsBox>(sums)
+        .expect("attached")
+        .expect("memory");
     Flown {
         flight,
         ending,
@@ -59,7 +73,9 @@ impl Flown {
     pub(crate) fn metric(&self, name: &str) -> f64 {
         let all = self.metrics.metrics();
         let metric = all.iter().find(|metric| metric.name == name);
-        metric.unwrap_or_else(|| panic!("no metric {name} in {all:?}")).value
+        metric
+            .unwrap_or_else(|| panic!("no metric {name} in {all:?}"))
+            .value
     }
 }
 
@@ -68,6 +84,8 @@ pub(crate) fn refusal(text: &str) -> String {
     let flown = Scenario::from_toml_str(text, "test.toml")
         .and_then(|scenario| scenario.build(&()))
         .and_then(scenario::Built::fly);
-    let error: ScenarioError = flown.err().unwrap_or_else(|| panic!("this should be refused:\n{text}"));
+    let error: ScenarioError = flown
+        .err()
+        .unwrap_or_else(|| panic!("this should be refused:\n{text}"));
     error.to_string()
 }

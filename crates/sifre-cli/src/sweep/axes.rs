@@ -111,13 +111,17 @@ pub(crate) fn uniform(text: &str) -> Result<Draw, String> {
 }
 
 fn key_and<'a>(text: &'a str, form: &str) -> Result<(String, &'a str), String> {
-    let (key, rest) = text.split_once('=').ok_or_else(|| format!("\"{text}\": write {form}"))?;
+    let (key, rest) = text
+        .split_once('=')
+        .ok_or_else(|| format!("\"{text}\": write {form}"))?;
     Ok((key.trim().to_owned(), rest.trim()))
 }
 
 fn key_and_two(text: &str, form: &str) -> Result<(String, [f64; 2]), String> {
     let (key, rest) = key_and(text, form)?;
-    let (a, b) = rest.split_once(':').ok_or_else(|| format!("\"{text}\": write {form}"))?;
+    let (a, b) = rest
+        .split_once(':')
+        .ok_or_else(|| format!("\"{text}\": write {form}"))?;
     Ok((key, [number(a)?, number(b)?]))
 }
 

@@ -27,7 +27,11 @@ impl Journal {
     /// Opens the journal of a table, and reads what it has of this sweep.
     pub(crate) fn open(out: &Path, fingerprint: &str, restart: bool) -> Result<Self, Failure> {
         let path = path_of(out);
-        let mut text = if restart { String::new() } else { fs::read_to_string(&path).unwrap_or_default() };
+        let mut text = if restart {
+            String::new()
+        } else {
+            fs::read_to_string(&path).unwrap_or_default()
+        };
         // What is not a whole line was being written when the program ended.
         text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
         let header = serde_json::json!({ "sifre_sweep": fingerprint }).to_string();
@@ -64,10 +68,12 @@ impl Journal {
 
     /// Adds a row, on disk first.
     pub(crate) fn add(&mut self, row: Row) -> Result<(), Failure> {
-        self.file.write_all(line(&row).as_bytes()).map_err(|source| Failure::Write {
-            path: self.path.clone(),
-            source,
-        })?;
+        self.file
+            .write_all(line(&row).as_bytes())
+            .map_err(|source| Failure::Write {
+                path: self.path.clone(),
+                source,
+            })?;
         self.rows.push(row);
         Ok(())
     }

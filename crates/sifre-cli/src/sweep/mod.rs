@@ -88,7 +88,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     bar.finish_and_clear();
     if (rows.len() as u64) < plan.count {
         let left = plan.count - rows.len() as u64;
-        eprintln!("interrupted with {left} of {} runs left: the same command goes on from here", plan.count);
+        eprintln!(
+            "interrupted with {left} of {} runs left: the same command goes on from here",
+            plan.count
+        );
         return Ok(Exit::Interrupted);
     }
     table::write(&arguments.out, &plan.keys(), &rows)?;
@@ -103,11 +106,16 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     } else {
         println!(
             "{} runs: {} done, {} ended early, {refused} could not be flown\nrecorded in {}",
-            rows.len(), flown(Exit::Done), flown(Exit::Early), arguments.out.display()
+            rows.len(),
+            flown(Exit::Done),
+            flown(Exit::Early),
+            arguments.out.display()
         );
     }
     match rows.first() {
-        Some(row) if refused == rows.len() => Err(Failure::Usage(format!("no run could be flown: {}", row.end))),
+        Some(row) if refused == rows.len() => {
+            Err(Failure::Usage(format!("no run could be flown: {}", row.end)))
+        }
         _ => Ok(Exit::Done),
     }
 }
@@ -146,7 +154,8 @@ impl<'a> Plan<'a> {
     /// The keys that are varied.
     fn keys(&self) -> Vec<String> {
         let axes = self.axes.iter().map(|axis| axis.key.clone());
-        axes.chain(self.draws.iter().map(|draw| draw.key.clone())).collect()
+        axes.chain(self.draws.iter().map(|draw| draw.key.clone()))
+            .collect()
     }
 
     /// What makes this sweep another than the next.
@@ -180,7 +189,9 @@ impl<'a> Plan<'a> {
     /// Flies all runs that the journal doesn't have; the rows that there are then, in order.
     fn fly_all(&self, journal: Journal, jobs: Option<usize>, bar: &ProgressBar) -> Result<Vec<Row>, Failure> {
         let has: Vec<u64> = journal.rows.iter().map(|row| row.run).collect();
-        let left: Vec<u64> = (0..self.count).filter(|run| has.binary_search(run).is_err()).collect();
+        let left: Vec<u64> = (0..self.count)
+            .filter(|run| has.binary_search(run).is_err())
+            .collect();
         let journal = Mutex::new(journal);
         let one = |&run: &u64| -> Result<(), Failure> {
             if interrupt::asked() {
@@ -191,12 +202,20 @@ impl<'a> Plan<'a> {
             };
             bar.inc(1);
             // Another thread that panicked has left the rows before its own whole.
-            journal.lock().unwrap_or_else(std::sync::PoisonError::into_inner).add(row)
+            journal
+                .lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner)
+                .add(row)
         };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).build();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs.unwrap_or(0))
+            .build();
         let pool = pool.map_err(|error| Failure::Usage(format!("--jobs: {error}")))?;
         pool.install(|| left.par_iter().try_for_each(one))?;
-        let mut rows = journal.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).rows;
+        let mut rows = journal
+            .into_inner()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+            .rows;
         rows.sort_by_key(|row| row.run);
         Ok(rows)
     }
@@ -218,7 +237,10 @@ impl<'a> Plan<'a> {
                 exit_code: Exit::from(ending.end).code(),
                 time_s: Some(ending.report.time_s),
                 // JSON has no number for what is not finite.
-                metrics: metrics.into_iter().map(|m| (m.name, Some(m.value).filter(|x| x.is_finite()))).collect(),
+                metrics: metrics
+                    .into_iter()
+                    .map(|m| (m.name, Some(m.value).filter(|x| x.is_finite())))
+                    .collect(),
             }),
             Err(failure) => Some(Row {
                 run,
@@ -235,14 +257,20 @@ impl<'a> Plan<'a> {
 /// Flies a scenario without recording it.
 fn fly(scenario: &Scenario, files: &dyn Files) -> Result<(scenario::Ending, Vec<scenario::Metric>), Failure> {
     let mut flight = scenario.build(files)?.fly()?;
-    let id = flight.simulation.attach(flight.output.step_s, MetricsBox::default())?;
+    let id = flight
+        .simulation
+        .attach(flight.output.step_s, MetricsBox::default())?;
     let ending = flight.run(&mut interrupt::watch())?;
     let metrics = flight.simulation.detach::<MetricsBox>(id).and_then(Result::ok);
     Ok((ending, metrics.map_or_else(Vec::new, |metrics| metrics.metrics())))
 }
 
 fn progress_bar(count: u64, done: u64, json: bool) -> ProgressBar {
-    let bar = if json { ProgressBar::hidden() } else { ProgressBar::new(count) };
+    let bar = if json {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(count)
+    };
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len}  {eta} left");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     // Runs of before must not count for the speed of now.

@@ -22,7 +22,10 @@ fn ending(path: &Path) -> Option<&str> {
 pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     match ending(path) {
         Some("csv" | "parquet") => Ok(()),
-        _ => Err(Failure::Usage(format!("--out {}: a table ends in .csv or .parquet", path.display()))),
+        _ => Err(Failure::Usage(format!(
+            "--out {}: a table ends in .csv or .parquet",
+            path.display()
+        ))),
     }
 }
 
@@ -64,14 +67,25 @@ fn columns(keys: &[String], rows: &[Row]) -> Vec<Column> {
     for (k, key) in keys.iter().enumerate() {
         all.push(column(key, inputs(rows, k)));
     }
-    all.push(column("end", Values::Texts(rows.iter().map(|row| row.end.clone()).collect())));
+    all.push(column(
+        "end",
+        Values::Texts(rows.iter().map(|row| row.end.clone()).collect()),
+    ));
     all.push(column("exit_code", whole(|row| row.exit_code.into())));
     let times = rows.iter().map(|row| row.time_s.unwrap_or(f64::NAN));
     all.push(column("time_s", Values::Numbers(times.collect())));
     // Every run that was flown has the same metrics.
-    let names = rows.iter().find(|row| !row.metrics.is_empty()).map(|row| &row.metrics);
+    let names = rows
+        .iter()
+        .find(|row| !row.metrics.is_empty())
+        .map(|row| &row.metrics);
     for (name, _) in names.into_iter().flatten() {
-        let one = |row: &Row| row.metrics.iter().find(|(other, _)| other == name).and_then(|(_, value)| *value);
+        let one = |row: &Row| {
+            row.metrics
+                .iter()
+                .find(|(other, _)| other == name)
+                .and_then(|(_, value)| *value)
+        };
         let values = rows.iter().map(|row| one(row).unwrap_or(f64::NAN));
         all.push(column(name, Values::Numbers(values.collect())));
     }

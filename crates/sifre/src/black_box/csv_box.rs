@@ -138,10 +138,7 @@ impl Recording {
 }
 
 /// Reads the rows until the end or the first that is wrong.
-fn read_rows<R: Read>(
-    recording: &mut Recording,
-    from: BufReader<LastByte<R>>,
-) -> Result<(), BlackBoxError> {
+fn read_rows<R: Read>(recording: &mut Recording, from: BufReader<LastByte<R>>) -> Result<(), BlackBoxError> {
     let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(from);
     let mut values = vec![0.0; recording.channels().len()];
     let [mut record, mut next] = [csv::StringRecord::new(), csv::StringRecord::new()];

@@ -193,7 +193,11 @@ fn exact_parquet_is_recovered_by_row_groups() {
     file[second..end].fill(0xff);
     let recovered = Recording::recover_parquet(::bytes::Bytes::from(file.clone())).unwrap();
     assert_eq!(recovered.recording.len(), 524_288);
-    assert!(matches!(recovered.damage, Some(BlackBoxError::Parquet(_))), "{:?}", recovered.damage);
+    assert!(
+        matches!(recovered.damage, Some(BlackBoxError::Parquet(_))),
+        "{:?}",
+        recovered.damage
+    );
 
     file.truncate(second);
     let error = Recording::recover_parquet(::bytes::Bytes::from(file)).unwrap_err();
