@@ -9,7 +9,7 @@ use crate::disk::Beside;
 use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, Template, setting};
 use crate::{drawing, interrupt, report};
-use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
 use quad_dynamics::Level;
 use quad_kinematics::EulerAngles;
@@ -90,9 +90,9 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     if json {
         report::print(&as_json(&agents, &differences, &flights));
     } else {
-        println!("{}", table(&agents, &differences, &flights));
+        report::say(format!("{}\n", table(&agents, &differences, &flights)));
         if let Some(path) = &arguments.plot {
-            println!("drawn: {}", path.display());
+            report::say(format!("drawn: {}\n", path.display()));
         }
     }
     let all_done = flights.iter().all(|(_, flown)| flown.end == End::Done);
@@ -198,7 +198,7 @@ impl Size {
 
 fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[(Scenario, Flown)]) -> Table {
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY);
+    table.load_style(UTF8_FULL_CONDENSED);
     table.set_header([
         "agent",
         "level",

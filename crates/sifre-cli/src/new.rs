@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let known = READY.iter().find(|(name, _)| *name == arguments.from);
     let text = known.map_or(READY[0].1, |(_, text)| text);
     let Some(path) = &arguments.file else {
-        print!("{text}");
+        report::say(text);
         return Ok(Exit::Done);
     };
     if path.exists() && !arguments.force {
@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     if json {
         report::print(&serde_json::json!({ "written": path, "from": arguments.from }));
     } else {
-        println!("written: {0}\nfly it:  sifre run {0}", path.display());
+        report::say(format!("written: {0}\nfly it:  sifre run {0}\n", path.display()));
     }
     Ok(Exit::Done)
 }

@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
             "damage": recovered.damage.map(|damage| damage.to_string()),
         }));
     } else {
-        println!("drawn: {}", out.display());
+        report::say(format!("drawn: {}\n", out.display()));
     }
     Ok(Exit::Done)
 }

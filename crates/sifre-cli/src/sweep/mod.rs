@@ -104,13 +104,13 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
             "refused": refused, "taken_from_journal": done, "output": arguments.out,
         }));
     } else {
-        println!(
-            "{} runs: {} done, {} ended early, {refused} could not be flown\nrecorded in {}",
+        report::say(format!(
+            "{} runs: {} done, {} ended early, {refused} could not be flown\nrecorded in {}\n",
             rows.len(),
             flown(Exit::Done),
             flown(Exit::Early),
             arguments.out.display()
-        );
+        ));
     }
     match rows.first() {
         Some(row) if refused == rows.len() => {
