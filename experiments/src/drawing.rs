@@ -31,9 +31,25 @@ pub enum Body {
     Picture(Svg),
     /// A table, shown in the gallery.
     Table(DisplayTable),
+    /// An animation, written as a page of its own.
+    Animation(Animation),
+}
+
+/// A page that moves, and a still of it.
+#[derive(Clone, Debug)]
+pub struct Animation {
+    /// The page, as HTML.
+    pub page: String,
+    /// The still as PNG, where a browser could draw it.
+    pub still: Option<Vec<u8>>,
 }
 
 impl Drawing {
+    /// A drawing that shows a still of an animation and leads to it.
+    pub fn animation(animation: Animation) -> Self {
+        Self::new(Body::Animation(animation))
+    }
+
     /// A drawing that shows a picture.
     pub fn picture(svg: Svg) -> Self {
         Self::new(Body::Picture(svg))

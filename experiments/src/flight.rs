@@ -169,6 +169,19 @@ impl Scenario {
     /// # Errors
     /// Whatever keeps the vehicle from taking off. A flight that diverges is a log that says so.
     pub fn fly_vehicle(&self, vehicle: &Vehicle, level: Level) -> Result<FlightLog, ItemError> {
+        self.fly_with(vehicle, level, &self.phenomena(level))
+    }
+
+    /// Flies the scenario with a vehicle at a level with these phenomena, whatever the scenario says of them.
+    ///
+    /// # Errors
+    /// Whatever keeps the vehicle from taking off. A flight that diverges is a log that says so.
+    pub fn fly_with(
+        &self,
+        vehicle: &Vehicle,
+        level: Level,
+        phenomena: &PhenomenonSet,
+    ) -> Result<FlightLog, ItemError> {
         let controller: AnyController<f64> = match self.controller {
             Law::C1 => AnyController::C1(C1::new(vehicle, &self.settings)?.into()),
             Law::C2 => AnyController::C2(C2::new(vehicle, &self.settings)?.into()),
@@ -189,7 +202,7 @@ impl Scenario {
                 (first.position, first.yaw, Some(trajectory))
             }
         };
-        let quadrotor = AnyQuadrotor::hovering(level, vehicle, &self.phenomena(level), start, yaw)?;
+        let quadrotor = AnyQuadrotor::hovering(level, vehicle, phenomena, start, yaw)?;
         let flyer = Flyer::new(vehicle, quadrotor, controller.with_limits(self.limits(vehicle)))?;
         let plan = FlightPlan {
             grid: TimeGrid::from_seconds(self.step_s, self.duration_s)?,

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::claim::ClaimRecord;
 use crate::item::Item;
-use crate::output::{OutputError, save_file};
+use crate::output::{OutputError, animation_name, save_file};
 use crate::plot::svg::escape;
 use crate::plot::text;
 use crate::summary::{Record, Status, Summary};
@@ -156,7 +156,8 @@ fn article(item: &Item, record: Option<&Record>, table: &impl Fn(&str) -> String
             escape(&text::plain(item.title))
         );
     }
-    if record.files.iter().any(|file| file.ends_with(".html")) {
+    out += &animation(item, record);
+    if record.files.contains(&format!("{}.html", item.id)) {
         let _ = write!(out, "<div class=\"scroll\">{}</div>", table(item.id));
     }
     let _ = writeln!(out, "<p>{}</p>", text::html(item.description));
@@ -167,6 +168,27 @@ fn article(item: &Item, record: Option<&Record>, table: &impl Fn(&str) -> String
     out += &claims(&record.claims);
     out += &footer(item, record);
     out + "</article>\n"
+}
+
+/// The still of an animation, if there is one, and the way to the animation.
+fn animation(item: &Item, record: &Record) -> String {
+    let page = animation_name(item.id);
+    if !record.files.contains(&page) {
+        return String::new();
+    }
+    let still = format!("{}.png", item.id);
+    if record.files.contains(&still) {
+        let words = escape(&text::plain(item.title));
+        let image = format!(
+            "<img src=\"{still}\" alt=\"{}: {words}\" loading=\"lazy\">",
+            item.heading()
+        );
+        format!("<a href=\"{page}\">{image}</a>\n<p><a href=\"{page}\">Play the animation</a></p>\n")
+    } else {
+        format!(
+            "<p><a href=\"{page}\">Play the animation</a> (no still: there was no Chromium to draw it)</p>\n"
+        )
+    }
 }
 
 fn status_line(status: &Status) -> String {
@@ -209,7 +231,10 @@ fn claims(claims: &[ClaimRecord]) -> String {
 
 fn footer(item: &Item, record: &Record) -> String {
     let link = |file: &String| format!("<a href=\"{file}\">{file}</a>", file = escape(file));
-    let shown = record.files.iter().filter(|file| !file.ends_with(".html"));
+    let shown = record
+        .files
+        .iter()
+        .filter(|file| **file != format!("{}.html", item.id));
     let mut parts = Vec::new();
     if record.status == Status::Drawn {
         parts.push(item.origin.words().to_owned());

@@ -76,6 +76,8 @@ pub enum Kind {
     Diagram,
     /// A table.
     Table,
+    /// An animation, with a still of it.
+    Animation,
     /// A photograph.
     Photograph,
 }

@@ -53,6 +53,12 @@ pub fn write(folder: &Path, id: &str, drawing: &Drawing) -> Result<Vec<String>, 
                 save(format!("{id}.html"), table.to_html().as_bytes())?;
             }
         }
+        Body::Animation(animation) => {
+            save(animation_name(id), animation.page.as_bytes())?;
+            if let Some(still) = &animation.still {
+                save(format!("{id}.png"), still)?;
+            }
+        }
         Body::Table(table) => save(format!("{id}.html"), table.to_html().as_bytes())?,
     }
     for (name, table) in &drawing.data {
@@ -67,6 +73,11 @@ pub fn write(folder: &Path, id: &str, drawing: &Drawing) -> Result<Vec<String>, 
         save(format!("{id}.toml"), toml::to_string_pretty(settings)?.as_bytes())?;
     }
     Ok(files)
+}
+
+/// File name of an animation: `A.1-animation.html`.
+pub fn animation_name(id: &str) -> String {
+    format!("{id}-animation.html")
 }
 
 /// File name of a table of data: `6.4.csv`, or `6.4-inputs.csv` for a further one.

@@ -31,12 +31,12 @@ macro_rules! family {
 
 family! {
     FamilyOne: Level1, "Level 1.", [InputLimits];
-    FamilyTwo: Level2, "Level 2.", [Drag, GyroscopicTorque, InputLimits];
-    FamilyThree: Level3, "Level 3.", [Drag, GyroscopicTorque, SpinUpReaction, InputLimits];
-    FamilyFour: Level4, "Level 4.", [Drag, GyroscopicTorque, InputLimits];
-    FamilyFive: Level5, "Level 5.", [Drag, GyroscopicTorque, InputLimits, VoltageSag];
+    FamilyTwo: Level2, "Level 2.", [Drag, GyroscopicTorque, InputLimits, GroundEffect, Blockage];
+    FamilyThree: Level3, "Level 3.", [Drag, GyroscopicTorque, SpinUpReaction, InputLimits, GroundEffect, Blockage];
+    FamilyFour: Level4, "Level 4.", [Drag, GyroscopicTorque, InputLimits, GroundEffect, Blockage];
+    FamilyFive: Level5, "Level 5.", [Drag, GyroscopicTorque, InputLimits, VoltageSag, GroundEffect, Blockage];
     FamilyMechanistic: MechanisticQuadrotor, "The mechanistic vehicle.",
-        [Drag, GyroscopicTorque, InputLimits, VoltageSag];
+        [Drag, GyroscopicTorque, InputLimits, VoltageSag, GroundEffect, Blockage];
 }
 
 /// Any of the phenomena that a model may have, switched on and off at random.

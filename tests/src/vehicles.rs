@@ -7,8 +7,9 @@ use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::{
-    Airframe, BatteryParameters, DragParameters, Environment, LinearRotorParameters, MotorParameters,
-    PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters, RotorMount, Spin,
+    Airframe, ArmParameters, BatteryParameters, DragParameters, Environment, LinearRotorParameters,
+    MotorParameters, PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters,
+    RotorMount, Spin,
 };
 use quad_kinematics::Quaternion;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -307,6 +308,11 @@ fn assemble(
         motor: Some(motor),
         battery: Some(factors.battery(&motor, weight, arm)),
         drag: Some(drag),
+        arms: Some(ArmParameters {
+            width: 0.05 * airframe.arm_length,
+            drag_coefficient: 1.2,
+            drop: 0.1 * airframe.arm_length,
+        }),
     }
 }
 

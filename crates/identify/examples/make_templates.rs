@@ -1,9 +1,11 @@
 //! Makes the example files in the virtual laboratory: `cargo run -p identify --example make_templates`.
 
 use quad_dynamics::Vehicle;
+use quad_ndi::{AttitudeSettings, LoopSettings, Settings};
 use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
+use sysid::laboratory::flights::FlightTest;
 use sysid::laboratory::generator;
 use sysid::laboratory::load_cells::{Channel, LoadCell};
 use sysid::laboratory::pendulum::{Axis, PendulumRig};
@@ -18,8 +20,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     std::fs::write(folder.join("centre-of-mass.csv"), centre_of_mass()?)?;
     std::fs::write(folder.join("pendulum.csv"), pendulum()?)?;
     std::fs::write(folder.join("load-cell.csv"), load_cell()?)?;
+    std::fs::write(folder.join("load-cell-torque.csv"), torque_cell()?)?;
     std::fs::write(folder.join("thrust-stand.csv"), thrust_stand()?)?;
     std::fs::write(folder.join("rotor-response.csv"), rotor_response()?)?;
+    std::fs::write(folder.join("flight.csv"), flight()?)?;
     Ok(())
 }
 
@@ -71,6 +75,22 @@ fn load_cell() -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
+fn torque_cell() -> Result<String, Box<dyn Error>> {
+    let cell = LoadCell::of(&Vehicle::qball_x4(), Channel::TorqueClockwise);
+    let mut text = format!(
+        "# Known loads on a torque cell, clockwise, up and down three times: an example from the virtual laboratory, not measured.\n\
+         # load_n_m: weight times arm, N m, positive clockwise seen from above; reading_v: what the cell shows, V. Calibrate the\n\
+         # directions in files of their own. Three loads or more, each more than once.\n\
+         # This one: --capacity-n-m {:.2}\n\
+         load_n_m,reading_v\n",
+        cell.capacity
+    );
+    for s in cell.calibrate(11, 3, &mut generator(SEED))? {
+        writeln!(text, "{:.5},{:.5}", s.load, s.reading_v)?;
+    }
+    Ok(text)
+}
+
 fn thrust_stand() -> Result<String, Box<dyn Error>> {
     let sweep = StaticSweep {
         duties: (0..12).map(|i| 0.064 + 0.002 * f64::from(i)).collect(),
@@ -118,6 +138,60 @@ fn rotor_response() -> Result<String, Box<dyn Error>> {
             "{:.3},{:.4},{:.3},{:.4},{:.5},{:.2}",
             s.time_s, s.duty, s.battery_voltage_v, s.thrust_n, s.torque_n_m, s.speed_rad_s
         )?;
+    }
+    Ok(text)
+}
+
+/// Settling times of the controller of the flight, s: slow enough to leave the excitation to the rotors.
+fn settings() -> Settings {
+    let with = |settling_time_s| LoopSettings {
+        settling_time_s,
+        damping: 1.0,
+        pole_ratio: 20.0,
+    };
+    Settings {
+        height: with(3.0),
+        yaw: with(3.0),
+        position: with(5.0),
+        attitude: AttitudeSettings {
+            frequency_ratio: 10.0,
+            damping: 1.0,
+            pole_ratio: 5.0,
+        },
+    }
+}
+
+fn flight() -> Result<String, Box<dyn Error>> {
+    let test = FlightTest {
+        half_side_m: 0.5,
+        sides: 4,
+        side_s: 4.0,
+        sample_every_ms: 10,
+        excitation: 0.0012,
+        ..FlightTest::default()
+    };
+    let mut text = String::from(
+        "# A Qball-X4 flying a small square while its rotors are shaken: an example from the virtual laboratory, not measured.\n\
+         # time_s: s, rising; force_x, force_y, force_z: specific force of an accelerometer in the centre of mass along the\n\
+         # body's axes (forward, right, down), m/s2, [0, 0, -9.81] in hover; rate_x, rate_y, rate_z: p, q, r, rad/s;\n\
+         # duty_1 .. duty_4: raw PWM duties in the order of the vehicle file's rotors, held to the next row;\n\
+         # battery_voltage_v: V (if it was not measured: the nominal one in every row).\n\
+         # Keep what was logged on the ground out by --from and --to. 100 rows a second or more; move all three of thrust, roll\n\
+         # and pitch, up to 5 Hz.\n\
+         time_s,force_x_m_s2,force_y_m_s2,force_z_m_s2,rate_x_rad_s,rate_y_rad_s,rate_z_rad_s,duty_1,duty_2,duty_3,duty_4,battery_voltage_v\n",
+    );
+    for s in test.fly(&Vehicle::qball_x4(), &settings(), &mut generator(SEED))? {
+        write!(text, "{:.2}", s.time_s)?;
+        for force in [s.force_x_m_s2, s.force_y_m_s2, s.force_z_m_s2] {
+            write!(text, ",{force:.3}")?;
+        }
+        for rate in [s.rate_x_rad_s, s.rate_y_rad_s, s.rate_z_rad_s] {
+            write!(text, ",{rate:.3}")?;
+        }
+        for duty in [s.duty_1, s.duty_2, s.duty_3, s.duty_4] {
+            write!(text, ",{duty:.5}")?;
+        }
+        writeln!(text, ",{:.2}", s.battery_voltage_v)?;
     }
     Ok(text)
 }

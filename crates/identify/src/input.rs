@@ -1,31 +1,48 @@
-//! The CSV files: their columns, units, and the ranges in which a number is physically possible.
+//! The CSV files: their columns, units, and the ranges in which a number is physically possible; and what was commanded.
 
 use crate::output::Answer;
+use nalgebra::Vector3;
 use std::error::Error;
-use std::fs::{self, File};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 use sysid::centre_of_mass::Placing;
 use sysid::load_cell::Sample;
 use sysid::measurement::{Column, Layout, Table, read};
 use sysid::pendulum::AngleSample;
+use sysid::recorded::InertialLog;
 use sysid::rotor_dynamics::DynamicSample;
 use sysid::rotor_static::StaticSample;
 
 const TIME: Column = Column::new("time_s", "s", 0.0, 1e6);
 const STAND: [Column; 5] = [
-    Column::new("duty", "1", 0.0, 1.0),
+    Column::commanded("duty", "1", 0.0, 1.0),
     Column::new("battery_voltage_v", "V", 0.1, 100.0),
     Column::new("thrust_n", "N", -50.0, 500.0),
     Column::new("torque_n_m", "N m", -10.0, 50.0),
     Column::new("speed_rad_s", "rad/s", 0.0, 1e4),
 ];
 const SWING: [Column; 2] = [TIME, Column::new("angle_rad", "rad", -3.2, 3.2)];
-const LOADS: [Column; 2] = [
-    Column::new("load_n", "N", -1e4, 1e4),
-    Column::new("reading_v", "V", -100.0, 100.0),
+const READING: Column = Column::new("reading_v", "V", -100.0, 100.0);
+const FORCES: [Column; 2] = [Column::commanded("load_n", "N", -1e4, 1e4), READING];
+const TORQUES: [Column; 2] = [Column::commanded("load_n_m", "N m", -1e3, 1e3), READING];
+/// Twenty times the standard gravity, and faster than any gyroscope on a chip.
+const FLIGHT: [Column; 12] = [
+    TIME,
+    Column::new("force_x_m_s2", "m/s²", -200.0, 200.0),
+    Column::new("force_y_m_s2", "m/s²", -200.0, 200.0),
+    Column::new("force_z_m_s2", "m/s²", -200.0, 200.0),
+    Column::new("rate_x_rad_s", "rad/s", -70.0, 70.0),
+    Column::new("rate_y_rad_s", "rad/s", -70.0, 70.0),
+    Column::new("rate_z_rad_s", "rad/s", -70.0, 70.0),
+    Column::commanded("duty_1", "1", 0.0, 1.0),
+    Column::commanded("duty_2", "1", 0.0, 1.0),
+    Column::commanded("duty_3", "1", 0.0, 1.0),
+    Column::commanded("duty_4", "1", 0.0, 1.0),
+    Column::new("battery_voltage_v", "V", 0.1, 100.0),
 ];
 const PLACINGS: [Column; 13] = [
-    Column::new("orientation", "1", 0.0, 1000.0),
+    Column::commanded("orientation", "1", 0.0, 1000.0),
     Column::new("x_1_m", "m", -20.0, 20.0),
     Column::new("y_1_m", "m", -20.0, 20.0),
     Column::new("z_1_m", "m", -20.0, 20.0),
@@ -42,28 +59,43 @@ const PLACINGS: [Column; 13] = [
 /// Longest step of a record that is no gap, s: twice the slowest sampling that makes sense, 20 Hz.
 const LONGEST_STEP_S: f64 = 0.1;
 
-type Read<T> = Result<(Vec<T>, Answer), Box<dyn Error>>;
+/// What a file says in place of a path for standard input.
+const STANDARD_INPUT: &str = "-";
 
-/// The text of a file, with its name in the error.
-pub(crate) fn text(path: &Path) -> Result<String, Box<dyn Error>> {
-    fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()).into())
+type Samples<T> = Result<Vec<T>, Box<dyn Error>>;
+
+fn open(path: &Path) -> io::Result<Box<dyn Read>> {
+    if path.as_os_str() == STANDARD_INPUT {
+        Ok(Box::new(io::stdin().lock()))
+    } else {
+        Ok(Box::new(File::open(path)?))
+    }
 }
 
-fn rows<T>(path: &Path, layout: &Layout<'_>, row: impl Fn(&dyn Fn(usize) -> f64) -> T) -> Read<T> {
+/// The wanted columns of a file; what the reader noticed goes to the answer at once, since a fit may be refused for it.
+fn table(path: &Path, layout: &Layout<'_>, answer: &mut Answer) -> Result<Table, Box<dyn Error>> {
     let named = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
-    let table: Table = read(File::open(path).map_err(|e| named(&e))?, layout).map_err(|e| named(&e))?;
-    let samples = (0..table.rows())
-        .map(|i| row(&|column| table.column(column)[i]))
-        .collect();
-    let answer = Answer {
-        warnings: table.remarks.iter().map(|remark| named(remark)).collect(),
-        ..Answer::default()
-    };
-    Ok((samples, answer))
+    let table = read(open(path).map_err(|e| named(&e))?, layout).map_err(|e| named(&e))?;
+    answer
+        .warnings
+        .extend(table.remarks.iter().map(|remark| named(remark)));
+    Ok(table)
 }
 
-pub(crate) fn placings(path: &Path) -> Read<Placing> {
-    rows(path, &Layout::table(&PLACINGS), |at| Placing {
+fn rows<T>(
+    path: &Path,
+    layout: &Layout<'_>,
+    answer: &mut Answer,
+    row: impl Fn(&dyn Fn(usize) -> f64) -> T,
+) -> Samples<T> {
+    let table = table(path, layout, answer)?;
+    Ok((0..table.rows())
+        .map(|i| row(&|column| table.column(column)[i]))
+        .collect())
+}
+
+pub(crate) fn placings(path: &Path, answer: &mut Answer) -> Samples<Placing> {
+    rows(path, &Layout::table(&PLACINGS), answer, |at| Placing {
         orientation: at(0) as u32,
         x_1_m: at(1),
         y_1_m: at(2),
@@ -80,15 +112,16 @@ pub(crate) fn placings(path: &Path) -> Read<Placing> {
     })
 }
 
-pub(crate) fn swing(path: &Path) -> Read<AngleSample> {
-    rows(path, &Layout::timed(&SWING, LONGEST_STEP_S), |at| AngleSample {
+pub(crate) fn swing(path: &Path, answer: &mut Answer) -> Samples<AngleSample> {
+    let layout = Layout::timed(&SWING, LONGEST_STEP_S);
+    rows(path, &layout, answer, |at| AngleSample {
         time_s: at(0),
         angle_rad: at(1),
     })
 }
 
-pub(crate) fn sweep(path: &Path) -> Read<StaticSample> {
-    rows(path, &Layout::table(&STAND), |at| StaticSample {
+pub(crate) fn sweep(path: &Path, answer: &mut Answer) -> Samples<StaticSample> {
+    rows(path, &Layout::table(&STAND), answer, |at| StaticSample {
         duty: at(0),
         battery_voltage_v: at(1),
         thrust_n: at(2),
@@ -97,23 +130,59 @@ pub(crate) fn sweep(path: &Path) -> Read<StaticSample> {
     })
 }
 
-pub(crate) fn response(path: &Path) -> Read<DynamicSample> {
+pub(crate) fn response(path: &Path, answer: &mut Answer) -> Samples<DynamicSample> {
     let columns = [TIME, STAND[0], STAND[1], STAND[2], STAND[3], STAND[4]];
-    rows(path, &Layout::timed(&columns, LONGEST_STEP_S), |at| {
-        DynamicSample {
-            time_s: at(0),
-            duty: at(1),
-            battery_voltage_v: at(2),
-            thrust_n: at(3),
-            torque_n_m: at(4),
-            speed_rad_s: at(5),
-        }
+    let layout = Layout::timed(&columns, LONGEST_STEP_S);
+    rows(path, &layout, answer, |at| DynamicSample {
+        time_s: at(0),
+        duty: at(1),
+        battery_voltage_v: at(2),
+        thrust_n: at(3),
+        torque_n_m: at(4),
+        speed_rad_s: at(5),
     })
 }
 
-pub(crate) fn loads(path: &Path) -> Read<Sample> {
-    rows(path, &Layout::table(&LOADS), |at| Sample {
+/// What a load cell measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cell {
+    Force,
+    Torque,
+}
+
+pub(crate) fn loads(path: &Path, cell: Cell, answer: &mut Answer) -> Samples<Sample> {
+    let columns = match cell {
+        Cell::Force => &FORCES,
+        Cell::Torque => &TORQUES,
+    };
+    rows(path, &Layout::table(columns), answer, |at| Sample {
         load: at(0),
         reading_v: at(1),
     })
+}
+
+/// A flight as its file gives it.
+pub(crate) struct Recorded {
+    /// Inertial unit and commands.
+    pub(crate) log: InertialLog,
+    /// Battery voltage at each sample, V, if the file has it.
+    pub(crate) voltage: Option<Vec<f64>>,
+}
+
+/// A flight from a CSV file, its commands as raw duty.
+pub(crate) fn flight(path: &Path, answer: &mut Answer) -> Result<Recorded, Box<dyn Error>> {
+    let table = table(path, &Layout::timed(&FLIGHT, LONGEST_STEP_S), answer)?;
+    let vector = |first: usize, k: usize| Vector3::from_fn(|axis, _| table.column(first + axis)[k]);
+    let rows = 0..table.rows();
+    let log = InertialLog {
+        time: table.column(0).to_vec(),
+        specific_force: rows.clone().map(|k| vector(1, k)).collect(),
+        body_rates: rows.clone().map(|k| vector(4, k)).collect(),
+        commands: rows
+            .map(|k| std::array::from_fn(|i| table.column(7 + i)[k]))
+            .collect(),
+        remarks: Vec::new(),
+    };
+    let voltage = Some(table.column(11).to_vec());
+    Ok(Recorded { log, voltage })
 }

@@ -1,8 +1,6 @@
-//! What is printed, and the vehicle file with the identified numbers.
+//! What an identification says, and how it is printed.
 
-use quad_dynamics::Vehicle;
-use quad_dynamics::vehicle::file::VehicleFile;
-use std::error::Error;
+use quad_plot::Figure;
 use std::fmt::{Display, Write as _};
 use std::path::Path;
 use sysid::Estimate;
@@ -10,50 +8,102 @@ use sysid::Estimate;
 /// An identified number.
 pub(crate) struct Found {
     /// Its key in a vehicle file, `group.name` or `group.name[i]`; a name without a dot stands in no file.
-    key: String,
+    pub(crate) key: String,
+    /// Its unit; `1` if it has none.
     unit: &'static str,
-    estimate: Estimate,
-}
-
-impl Found {
-    pub(crate) fn new(key: &str, unit: &'static str, estimate: Estimate) -> Self {
-        Self {
-            key: key.to_owned(),
-            unit,
-            estimate,
-        }
-    }
+    pub(crate) estimate: Estimate,
+    /// How it was made, where data, file or program chose something; empty if there was nothing to choose.
+    made: String,
 }
 
 /// All that an identification says.
 #[derive(Default)]
 pub(crate) struct Answer {
     pub(crate) found: Vec<Found>,
+    /// What must be known before the numbers are used.
     pub(crate) warnings: Vec<String>,
+    /// Data, fit and residuals.
+    pub(crate) figure: Option<Figure>,
 }
 
 impl Answer {
     pub(crate) fn warn<W: Display>(&mut self, warnings: &[W]) {
         self.warnings.extend(warnings.iter().map(W::to_string));
     }
+
+    pub(crate) fn push(&mut self, key: &str, unit: &'static str, estimate: Estimate) {
+        self.push_made(key, unit, estimate, "");
+    }
+
+    /// The same with words on how the number was made.
+    pub(crate) fn push_made(&mut self, key: &str, unit: &'static str, estimate: Estimate, made: &str) {
+        self.found.push(Found {
+            key: key.to_owned(),
+            unit,
+            estimate,
+            made: made.to_owned(),
+        });
+    }
+}
+
+impl Found {
+    /// What a vehicle file says of where the number comes from: the command, the measurements, the choices.
+    pub(crate) fn source(&self, command: &str, data: &Path) -> String {
+        let file = data
+            .file_name()
+            .map_or_else(|| data.to_string_lossy(), |name| name.to_string_lossy());
+        let made = match self.made.as_str() {
+            "" => String::new(),
+            made => format!("; {made}"),
+        };
+        format!("identified: identify {command} {file}{made}")
+    }
 }
 
 /// A table for people.
 pub(crate) fn table(answer: &Answer) -> String {
     let mut text = format!(
-        "{:<42} {:>14} {:>12}  95 % interval\n",
-        "number", "estimate", "std. error"
+        "{:<40} {:>14} {:>11}  {:<28} unit\n",
+        "number", "estimate", "std. error", "95 % interval"
     );
-    for Found { key, unit, estimate } in &answer.found {
+    for Found {
+        key, unit, estimate, ..
+    } in &answer.found
+    {
         let i = estimate.interval();
         let (value, error) = (estimate.value, estimate.standard_error);
+        let places = decimals(error);
+        let interval = format!("{:.places$} to {:.places$}", i.lower, i.upper);
+        let value = format!("{value:.places$}");
         let _ = writeln!(
             text,
-            "{key:<42} {value:>14.6} {error:>12.2e}  {:.6} to {:.6} {unit}",
-            i.lower, i.upper
+            "{key:<40} {value:>14} {error:>11.2e}  {interval:<28} {unit}"
         );
     }
+    let mut made: Vec<&str> = answer.found.iter().map(|f| f.made.as_str()).collect();
+    made.dedup();
+    for made in made.into_iter().filter(|made| !made.is_empty()) {
+        let mut keys = answer
+            .found
+            .iter()
+            .filter(|f| f.made == made)
+            .map(|f| f.key.as_str());
+        let first = keys.next().unwrap_or_default();
+        let all = keys.fold(first.to_owned(), |all, key| all + ", " + key);
+        let _ = writeln!(text, "{all}: {made}");
+    }
     text
+}
+
+/// Decimals that show three digits of a standard error.
+fn decimals(error: f64) -> usize {
+    const MOST: f64 = 12.0;
+    const USUAL: usize = 6;
+    if error.is_finite() && error > 0.0 {
+        (2.0 - error.log10().floor()).clamp(0.0, MOST) as usize
+    } else {
+        USUAL
+    }
 }
 
 /// The same for machines.
@@ -62,53 +112,8 @@ pub(crate) fn json(answer: &Answer) -> String {
         let i = f.estimate.interval();
         serde_json::json!({
             "key": f.key, "unit": f.unit, "value": f.estimate.value, "standard_error": f.estimate.standard_error,
-            "lower": i.lower, "upper": i.upper,
+            "lower": i.lower, "upper": i.upper, "made": f.made,
         })
     });
     serde_json::json!({ "numbers": numbers.collect::<Vec<_>>(), "warnings": answer.warnings }).to_string()
-}
-
-/// A vehicle file's text with the identified numbers in the place of the old ones, checked to be a vehicle.
-pub(crate) fn updated(text: &str, path: &Path, found: &[Found]) -> Result<String, Box<dyn Error>> {
-    let origin = path.display().to_string();
-    VehicleFile::from_toml_str(text, &origin)?;
-    let mut table: toml::Table = text.parse()?;
-    for Found { key, estimate, .. } in found {
-        let Some((group, name)) = key.split_once('.') else {
-            continue;
-        };
-        let (name, index) = match name.split_once('[') {
-            Some((name, rest)) => (name, rest.trim_end_matches(']').parse::<usize>().ok()),
-            None => (name, None),
-        };
-        let entry = table
-            .get_mut(group)
-            .and_then(|g| g.get_mut(name))
-            .and_then(toml::Value::as_table_mut)
-            .ok_or_else(|| format!("{origin}: there is no {group}.{name} to replace"))?;
-        let (value, error) = (estimate.value.into(), estimate.standard_error.into());
-        match index {
-            None => {
-                entry.insert("value".into(), value);
-                entry.insert("standard_error".into(), error);
-            }
-            Some(i) => {
-                set(entry, "value", i, value);
-                set(entry, "standard_error", i, error);
-            }
-        }
-        entry.insert("source".into(), "identified: by the program identify".into());
-    }
-    let file = VehicleFile::from_toml_str(&toml::to_string(&table)?, &origin)?;
-    Vehicle::from_file(&file, &origin)?;
-    Ok(file.to_toml())
-}
-
-/// Sets a component of a triple that may not be there yet.
-fn set(entry: &mut toml::Table, key: &str, index: usize, value: toml::Value) {
-    let zeros = || toml::Value::Array(vec![0.0.into(); 3]);
-    let triple = entry.entry(key).or_insert_with(zeros);
-    if let Some(component) = triple.get_mut(index) {
-        *component = value;
-    }
 }

@@ -2,8 +2,8 @@
 
 use crate::model::StateOf;
 use crate::{
-    BuildError, Flight, Input, Level, Level1, Level2, Level3, Level4, Level5, PhenomenonSet, QuadrotorModel,
-    Snapshot, Vehicle,
+    BuildError, Flight, Input, Kick, Level, Level1, Level2, Level3, Level4, Level5, PhenomenonSet,
+    QuadrotorModel, Snapshot, Vehicle,
 };
 use nalgebra::Vector3;
 use quad_math::{FixedStep, Flat, Real};
@@ -146,6 +146,11 @@ impl<R: Real> AnyQuadrotor<R> {
         each_level!(self, q => q.state = method.step(&q.model, &q.state, input, h));
     }
 
+    /// Changes velocity and body rates suddenly.
+    pub fn kick(&mut self, kick: &Kick<R>) {
+        each_level!(self, q => q.state = q.model.kicked(&q.state, kick));
+    }
+
     /// What can be seen of the flight.
     #[inline]
     pub fn flight(&self) -> Flight<R> {
@@ -158,6 +163,11 @@ impl<R: Real> AnyQuadrotor<R> {
     #[inline(always)]
     pub fn see<T>(&self, look: impl FnOnce(&Flight<R>) -> T) -> T {
         each_level!(self, q => look(&q.model.flight(&q.state)))
+    }
+
+    /// Specific force at the centre of mass, along B, m/s²: what an ideal accelerometer there reads under this input.
+    pub fn specific_force(&self, input: &Input<R>) -> Vector3<R> {
+        each_level!(self, q => q.model.specific_force(&q.state, input))
     }
 
     /// The flight in terms that every level understands.

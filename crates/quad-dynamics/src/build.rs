@@ -5,8 +5,8 @@ mod rotors;
 use crate::quadrotor::{CommandLimits, CurrentDraw, Quadrotor, RotorSet, SpinningRotors};
 use crate::vehicle::Vehicle;
 use crate::{
-    BuildError, Drag, Input, Level, ModelName, Phenomenon, PhenomenonSet, QuadrotorState, RigidBody,
-    RigidBodyState, RotorGeometry,
+    Blockage, BuildError, Capabilities, Drag, GroundEffect, Input, Level, ModelName, Phenomenon,
+    PhenomenonSet, QuadrotorState, RigidBody, RigidBodyState, RotorGeometry,
 };
 use nalgebra::{Matrix4, Vector3, Vector4};
 use quad_math::{Real, constant};
@@ -146,12 +146,13 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> RotorSet<R, M, S> {
 }
 
 impl<M: RotorModel<f64>, S: Supply<f64>> RotorSet<f64, M, S> {
-    /// Zeroed commands that hold hover: thrust equals weight, no moment about any axis.
+    /// Zeroed commands that hold hover: this lift, N, of the four rotors, and no moment about any axis.
     pub(crate) fn hover_commands(
         &self,
         vehicle: &Vehicle,
         model: ModelName,
         within_limits: bool,
+        lift: f64,
     ) -> Result<[f64; 4], BuildError> {
         let g = &self.geometry;
         let rows = Matrix4::from_fn(|row, i| match row {
@@ -163,7 +164,7 @@ impl<M: RotorModel<f64>, S: Supply<f64>> RotorSet<f64, M, S> {
         // Thrusts that carry the weight without roll and pitch, with a free part `yaw` that only twists.
         let inverse = rows.try_inverse().unwrap_or_else(|| rows.map(|_| f64::NAN));
         let commands_for = |yaw: f64| {
-            let thrusts = inverse * Vector4::new(vehicle.weight(), 0.0, 0.0, yaw);
+            let thrusts = inverse * Vector4::new(lift, 0.0, 0.0, yaw);
             self.settled_commands(&thrusts)
         };
         let yaw_moment = |yaw: f64| {
@@ -243,12 +244,12 @@ fn check_hover(
     Ok(commands)
 }
 
-/// Whether a rotor model meets what a phenomenon needs (the rigid body is non-linear here).
-fn is_met<R: Real, M: FamilyRotor<R>>(phenomenon: Phenomenon) -> bool {
-    match phenomenon {
-        Phenomenon::Drag | Phenomenon::InputLimits | Phenomenon::GyroscopicTorque => true,
-        Phenomenon::SpinUpReaction => M::SPIN_UP == SpinUp::Separate,
-        Phenomenon::VoltageSag => M::FEELS_VOLTAGE,
+/// What a rotor model brings along for phenomena (the rigid body is non-linear here).
+fn capabilities<R: Real, M: FamilyRotor<R>>() -> Capabilities {
+    Capabilities {
+        non_linear_rigid_body: true,
+        separate_spin_up: M::SPIN_UP == SpinUp::Separate,
+        feels_voltage: M::FEELS_VOLTAGE,
     }
 }
 
@@ -262,24 +263,25 @@ where
     S: FamilySupply<R>,
 {
     let model = ModelName(M::LEVEL);
-    for &phenomenon in &phenomena.0 {
-        if !is_met::<R, M>(phenomenon) {
-            let prerequisite = phenomenon.prerequisite();
-            return Err(BuildError::UnmetPrerequisite {
-                model,
-                phenomenon,
-                prerequisite,
-            });
-        }
-    }
+    BuildError::check_phenomena(model, phenomena, capabilities::<R, M>())?;
     let has = |phenomenon| phenomena.contains(phenomenon);
     let trimmed = rotor_set::<f64, M::OverF64>(vehicle, phenomena)?;
-    let hover = trimmed.hover_commands(vehicle, model, has(Phenomenon::InputLimits))?;
+    let blockage = has(Phenomenon::Blockage)
+        .then(|| Blockage::<f64>::of(vehicle))
+        .transpose()?;
+    let lift = vehicle.weight() / (1.0 - blockage.map_or(0.0, |b| b.share_in_hover()));
+    let hover = trimmed.hover_commands(vehicle, model, has(Phenomenon::InputLimits), lift)?;
     Ok(Quadrotor {
         body: RigidBody::of(vehicle),
         rotor_set: rotor_set::<R, M>(vehicle, phenomena)?,
         drag: has(Phenomenon::Drag).then(|| drag(vehicle)).transpose()?,
         spinning: spinning(vehicle, phenomena)?,
+        ground_effect: has(Phenomenon::GroundEffect)
+            .then(|| GroundEffect::of(vehicle))
+            .transpose()?,
+        blockage: has(Phenomenon::Blockage)
+            .then(|| Blockage::of(vehicle))
+            .transpose()?,
         phenomena: phenomena.clone(),
         hover_commands: hover.map(constant),
     })

@@ -1,6 +1,6 @@
 //! Why a model can't be built.
 
-use crate::{Level, Phenomenon, Prerequisite, VehicleError};
+use crate::{Capabilities, Level, Phenomenon, PhenomenonSet, Prerequisite, VehicleError};
 
 /// Why a vehicle can't be flown at a level with the phenomena asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -36,6 +36,24 @@ pub enum BuildError {
         /// Top of the raw PWM range.
         maximum: f64,
     },
+}
+
+impl BuildError {
+    /// Checks that a model has what these phenomena need.
+    pub(crate) fn check_phenomena(
+        model: ModelName,
+        phenomena: &PhenomenonSet,
+        capabilities: Capabilities,
+    ) -> Result<(), Self> {
+        match phenomena.first_unmet(capabilities) {
+            None => Ok(()),
+            Some(phenomenon) => Err(Self::UnmetPrerequisite {
+                model,
+                phenomenon,
+                prerequisite: phenomenon.prerequisite(),
+            }),
+        }
+    }
 }
 
 /// How messages name a model: its level, or the mechanistic vehicle.

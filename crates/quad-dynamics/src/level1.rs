@@ -14,8 +14,8 @@
 use crate::model::RotorSnapshot;
 use crate::quadrotor::{CommandLimits, RotorSet};
 use crate::{
-    BuildError, Flight, Hover, Input, Level, ModelName, Phenomenon, PhenomenonSet, QuadrotorModel, RigidBody,
-    RigidBodyState, Snapshot, Vehicle,
+    BuildError, Capabilities, Flight, Hover, Input, Kick, Level, ModelName, Phenomenon, PhenomenonSet,
+    QuadrotorModel, RigidBody, RigidBodyState, Snapshot, Vehicle,
 };
 use nalgebra::Vector3;
 use quad_kinematics::{EulerAngles, EulerRates};
@@ -75,6 +75,16 @@ impl<R: Real> Level1<R> {
     }
 }
 
+impl<R: Real> Level1<R> {
+    /// Specific force at the centre of mass, `f = R_BW (v̇_W − g e_z)` along B, m/s², with the level's own acceleration:
+    /// what an ideal accelerometer there reads, `[0, 0, −g]` in hover. To first order in the tilt it lies along z_B.
+    pub fn specific_force(&self, state: &LinearState<R>, input: &Input<R>) -> Vector3<R> {
+        let mut felt = self.derivative(state, input).velocity;
+        felt.z -= self.body.gravity;
+        state.attitude.rotation().matrix.transpose() * felt
+    }
+}
+
 impl<R: Real> System<R> for Level1<R> {
     type State = LinearState<R>;
     type Input = Input<R>;
@@ -106,21 +116,17 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
     const LEVEL: Option<Level> = Some(Level::One);
 
     fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError> {
-        for &phenomenon in &phenomena.0 {
-            if phenomenon != Phenomenon::InputLimits {
-                let (model, prerequisite) = (ModelName(Self::LEVEL), phenomenon.prerequisite());
-                return Err(BuildError::UnmetPrerequisite {
-                    model,
-                    phenomenon,
-                    prerequisite,
-                });
-            }
-        }
+        BuildError::check_phenomena(ModelName(Self::LEVEL), phenomena, Capabilities::of(Level::One))?;
         let limits = phenomena
             .contains(Phenomenon::InputLimits)
             .then(|| CommandLimits::of(vehicle));
         let parts = RotorSet::<f64, IdealRotor<f64>, ConstantVoltage<f64>>::linear(vehicle, None);
-        let hover = parts.hover_commands(vehicle, ModelName(Self::LEVEL), limits.is_some())?;
+        let hover = parts.hover_commands(
+            vehicle,
+            ModelName(Self::LEVEL),
+            limits.is_some(),
+            vehicle.weight(),
+        )?;
         Ok(Self {
             body: RigidBody::of(vehicle),
             rotor_set: RotorSet::<R, IdealRotor<R>, ConstantVoltage<R>>::linear(vehicle, limits),
@@ -167,6 +173,16 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
             velocity: body.attitude.rotate(&body.velocity),
             attitude,
             attitude_rates: attitude.rates(&body.body_rates),
+        }
+    }
+
+    fn kicked(&self, state: &LinearState<R>, kick: &Kick<R>) -> LinearState<R> {
+        LinearState {
+            velocity: state.velocity + kick.velocity,
+            attitude_rates: state
+                .attitude_rates
+                .add_scaled(R::one(), &state.attitude.rates(&kick.body_rates)),
+            ..*state
         }
     }
 

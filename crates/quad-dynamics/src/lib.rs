@@ -69,27 +69,38 @@
 //! turn. [`AnyQuadrotor::at_level`] does both.
 
 mod any;
+mod attribution;
+mod blockage;
 pub mod build;
+mod dryden;
 mod error;
 mod forces;
+mod ground_effect;
 mod lagrange;
 mod level1;
 mod model;
 mod phenomenon;
+mod process_noise;
 mod quadrotor;
 mod quadrotor_state;
 mod resolution;
 mod rigid_body;
+mod shear;
 #[cfg(test)]
 mod tests;
 pub mod vehicle;
 
 pub use any::{AnyQuadrotor, InFlight};
+pub use attribution::{Attribution, AttributionError, MOST_PARTS, Parts, Share, shapley_values};
+pub use blockage::Blockage;
+pub use dryden::{Dryden, DrydenNoise, DrydenState};
 pub use error::{BuildError, ModelName};
 pub use forces::{Drag, RotorGeometry, gyroscopic_torque};
+pub use ground_effect::GroundEffect;
 pub use level1::{Level1, LinearRate, LinearState};
 pub use model::{Flight, Hover, Input, Level, NoSuchLevel, QuadrotorModel, RotorSnapshot, Snapshot, StateOf};
-pub use phenomenon::{Phenomenon, PhenomenonSet, Prerequisite};
+pub use phenomenon::{Capabilities, Phenomenon, PhenomenonSet, Prerequisite};
+pub use process_noise::{Kick, ProcessNoise};
 pub use quadrotor::{
     Bare, CommandLimits, CurrentDraw, Level2, Level3, Level4, Level5, MechanisticQuadrotor, Quadrotor,
     RotorSet, SpinningRotors,
@@ -97,6 +108,7 @@ pub use quadrotor::{
 pub use quadrotor_state::{QuadrotorRate, QuadrotorState};
 pub use resolution::{Feature, Resolution};
 pub use rigid_body::{RigidBody, RigidBodyRate, RigidBodyState, Wrench};
+pub use shear::{Shear, ShearError, ShearProfile};
 pub use vehicle::{Vehicle, VehicleError};
 
 /// The README's example is tested with the documentation.

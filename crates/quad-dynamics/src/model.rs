@@ -1,6 +1,6 @@
 //! What every model of the family offers: the trait, its inputs, its outputs, its levels.
 
-use crate::{BuildError, PhenomenonSet, RigidBodyState, Vehicle};
+use crate::{BuildError, Kick, PhenomenonSet, RigidBodyState, Vehicle};
 use nalgebra::Vector3;
 use quad_kinematics::{Body, EulerAngles, Rotation, World};
 use quad_math::{Flat, Real, State, System};
@@ -180,7 +180,12 @@ pub trait QuadrotorModel<R: Real>:
     /// This level's state for a flight that another level flew until now.
     fn adopt(&self, snapshot: &Snapshot<R>, input: &Input<R>) -> Self::State;
 
+    /// The state after a sudden change of velocity and body rates.
+    fn kicked(&self, state: &Self::State, kick: &Kick<R>) -> Self::State;
+
     /// Level hover in still air at a position in W, m, heading ψ, rad; a battery is full.
+    ///
+    /// Trimmed out of ground effect: near the ground a model with [`crate::GroundEffect`] rises from it.
     fn hover(&self, position: Vector3<R>, yaw: R) -> Hover<Self::State, R>;
 
     /// The phenomena switched on.

@@ -1,5 +1,6 @@
 //! The parts of a model that switch on and off, and the sets of them that order models by resolution.
 
+use crate::Level;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
@@ -18,16 +19,31 @@ pub enum Phenomenon {
     InputLimits,
     /// Battery voltage that falls with load and charge.
     VoltageSag,
+    /// Thrust that grows near the ground ([`crate::GroundEffect`]).
+    GroundEffect,
+    /// Arms that block the slipstream and are dragged down by it ([`crate::Blockage`]).
+    Blockage,
+    /// Random gusts about the mean wind ([`crate::Dryden`]).
+    Turbulence,
+    /// Mean wind that grows with height ([`crate::Shear`]).
+    WindShear,
+    /// Random forces and moments that nothing else explains ([`crate::ProcessNoise`]).
+    ProcessNoise,
 }
 
 impl Phenomenon {
     /// All of them, in the order of the declaration.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 10] = [
         Self::Drag,
         Self::GyroscopicTorque,
         Self::SpinUpReaction,
         Self::InputLimits,
         Self::VoltageSag,
+        Self::GroundEffect,
+        Self::Blockage,
+        Self::Turbulence,
+        Self::WindShear,
+        Self::ProcessNoise,
     ];
 
     /// What it adds to a model's resolution, in a phrase.
@@ -38,6 +54,11 @@ impl Phenomenon {
             Self::SpinUpReaction => "yaw torque of accelerating rotors",
             Self::InputLimits => "saturation of the commands",
             Self::VoltageSag => "thrust that falls with load and charge; one state, the charge drawn",
+            Self::GroundEffect => "thrust that depends on each rotor's height above the ground",
+            Self::Blockage => "thrust lost to the arms in the slipstream, by induced velocity and climb",
+            Self::Turbulence => "random gusts; five states of the shaping filters, outside the model",
+            Self::WindShear => "mean wind that depends on height",
+            Self::ProcessNoise => "random acceleration and angular acceleration, white",
         }
     }
 
@@ -49,6 +70,23 @@ impl Phenomenon {
             Self::SpinUpReaction => Prerequisite::AerodynamicRotorTorque,
             Self::InputLimits => Prerequisite::None,
             Self::VoltageSag => Prerequisite::VoltageDependentRotor,
+            Self::GroundEffect => Prerequisite::NonLinearRigidBody,
+            Self::Blockage => Prerequisite::InducedVelocity,
+            Self::Turbulence | Self::WindShear => Prerequisite::AirRelativeDrag,
+            Self::ProcessNoise => Prerequisite::None,
+        }
+    }
+
+    /// Where the equation comes from.
+    pub const fn source(self) -> &'static str {
+        match self {
+            Self::Drag | Self::GyroscopicTorque | Self::SpinUpReaction => "thesis 3.4",
+            Self::InputLimits => "thesis 3.6",
+            Self::VoltageSag => "Tremblay and Dessaint (2009)",
+            Self::GroundEffect => "Cheeseman and Bennett (1955)",
+            Self::Blockage => "Leishman (2006), Hoerner (1965)",
+            Self::Turbulence | Self::WindShear => "MIL-F-8785C (1980)",
+            Self::ProcessNoise => "Gelb (1974)",
         }
     }
 
@@ -60,6 +98,11 @@ impl Phenomenon {
             Self::SpinUpReaction => "spin-up-reaction",
             Self::InputLimits => "input-limits",
             Self::VoltageSag => "voltage-sag",
+            Self::GroundEffect => "ground-effect",
+            Self::Blockage => "blockage",
+            Self::Turbulence => "turbulence",
+            Self::WindShear => "wind-shear",
+            Self::ProcessNoise => "process-noise",
         }
     }
 }
@@ -84,6 +127,47 @@ pub enum Prerequisite {
     AerodynamicRotorTorque,
     /// Rotors whose thrust depends on the battery voltage (level 5).
     VoltageDependentRotor,
+    /// A non-linear rigid body, and propellers whose thrust and disc give an induced velocity.
+    InducedVelocity,
+    /// The phenomenon [`Phenomenon::Drag`], through which a model feels the air move.
+    AirRelativeDrag,
+}
+
+/// What a model brings along that a phenomenon may need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Capabilities {
+    /// Whether its rigid body is non-linear.
+    pub non_linear_rigid_body: bool,
+    /// Whether its rotors' spin-up is not part of their torque already.
+    pub separate_spin_up: bool,
+    /// Whether its rotors feel the battery voltage.
+    pub feels_voltage: bool,
+}
+
+impl Capabilities {
+    /// What a level brings along.
+    pub const fn of(level: Level) -> Self {
+        Self {
+            non_linear_rigid_body: !matches!(level, Level::One),
+            separate_spin_up: matches!(level, Level::Three),
+            feels_voltage: matches!(level, Level::Five),
+        }
+    }
+}
+
+impl Prerequisite {
+    /// Whether a model that brings this along, with these phenomena switched on, has what it takes.
+    pub fn is_met(self, model: Capabilities, phenomena: &PhenomenonSet) -> bool {
+        match self {
+            Self::None => true,
+            Self::NonLinearRigidBody | Self::RotorSpeed | Self::InducedVelocity => {
+                model.non_linear_rigid_body
+            }
+            Self::AerodynamicRotorTorque => model.separate_spin_up,
+            Self::VoltageDependentRotor => model.feels_voltage,
+            Self::AirRelativeDrag => phenomena.contains(Phenomenon::Drag),
+        }
+    }
 }
 
 impl fmt::Display for Prerequisite {
@@ -97,6 +181,8 @@ impl fmt::Display for Prerequisite {
                  contains the spin-up)"
             }
             Self::VoltageDependentRotor => "rotors that depend on the battery voltage (level 5)",
+            Self::InducedVelocity => "the propellers' induced velocity on a non-linear rigid body (levels 2 to 5)",
+            Self::AirRelativeDrag => "the phenomenon drag, through which the air is felt",
         })
     }
 }
@@ -129,6 +215,22 @@ impl PhenomenonSet {
     pub fn without(mut self, phenomenon: Phenomenon) -> Self {
         self.0.remove(&phenomenon);
         self
+    }
+
+    /// The first phenomenon of the set that needs what this model, with this set, doesn't have.
+    pub fn first_unmet(&self, model: Capabilities) -> Option<Phenomenon> {
+        let is_met = |p: &Phenomenon| p.prerequisite().is_met(model, self);
+        self.0.iter().copied().find(|p| !is_met(p))
+    }
+
+    /// What is left of the set at a level: without what needs what the level doesn't have.
+    #[must_use]
+    pub fn admitted_by(&self, level: Level) -> Self {
+        let mut left = self.clone();
+        while let Some(unmet) = left.first_unmet(Capabilities::of(level)) {
+            left.0.remove(&unmet);
+        }
+        left
     }
 
     /// Whether every phenomenon of this set is in the other.

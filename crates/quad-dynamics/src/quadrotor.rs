@@ -5,6 +5,7 @@
 //! ```text
 //! voltage       V_b = supply(charge, Σ current)
 //! rotors        ẋ_i = rotor(x_i, u_i, V_b) → T_i, Q_i
+//! ground, arms  T_i → g(z_i) T_i − D_i
 //! wrench        F = −Σ T_i e_z + drag,  M = Σ r_i × T_i + Σ −s_i Q_i e_z + damping + gyroscopic + spin-up
 //! rigid body    Newton-Euler
 //! ```
@@ -14,8 +15,9 @@
 use crate::forces::sum_of_four;
 use crate::model::RotorSnapshot;
 use crate::{
-    BuildError, Drag, Flight, Hover, Input, Level, PhenomenonSet, QuadrotorModel, QuadrotorRate,
-    QuadrotorState, RigidBody, RigidBodyState, RotorGeometry, Snapshot, Vehicle, gyroscopic_torque,
+    Blockage, BuildError, Drag, Flight, GroundEffect, Hover, Input, Kick, Level, PhenomenonSet,
+    QuadrotorModel, QuadrotorRate, QuadrotorState, RigidBody, RigidBodyState, RotorGeometry, Snapshot,
+    Vehicle, gyroscopic_torque,
 };
 use nalgebra::Vector3;
 use quad_math::{RateOf, Real, System};
@@ -96,6 +98,10 @@ pub struct Quadrotor<R: Real, M, S> {
     pub drag: Option<Drag<R>>,
     /// Gyroscopic torque and spin-up reaction; `None` is off.
     pub spinning: Option<SpinningRotors<R>>,
+    /// Ground effect; `None` is off.
+    pub ground_effect: Option<GroundEffect<R>>,
+    /// Blockage of the slipstream; `None` is off.
+    pub blockage: Option<Blockage<R>>,
     pub(crate) phenomena: PhenomenonSet,
     pub(crate) hover_commands: [R; 4],
 }
@@ -155,10 +161,15 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> Quadrotor<R, M, S> {
         let set = &self.rotor_set;
         let outputs: [RotorOutput<R>; 4] =
             std::array::from_fn(|i| set.rotors[i].output(&state.rotors[i], &inputs[i]));
-        let mut wrench = set.geometry.wrench(&outputs);
+        let air_velocity = match (&self.drag, &self.blockage) {
+            (None, None) => state.body.velocity,
+            _ => state.body.velocity - state.body.attitude.conjugate().rotate(wind),
+        };
+        let mut wrench = set
+            .geometry
+            .wrench(&self.acting(&outputs, &state.body, air_velocity.z));
         if let Some(drag) = &self.drag {
-            let wind_b = state.body.attitude.conjugate().rotate(wind);
-            let extra = drag.wrench(&(state.body.velocity - wind_b), &state.body.body_rates);
+            let extra = drag.wrench(&air_velocity, &state.body.body_rates);
             wrench.force += extra.force;
             wrench.moment += extra.moment;
         }
@@ -166,6 +177,40 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> Quadrotor<R, M, S> {
             wrench.moment += self.spin_moment(spinning, state, inputs, &outputs);
         }
         wrench
+    }
+
+    /// What the rotors do to the airframe once ground and arms have had their say: torque as in free air.
+    #[inline(always)]
+    fn acting(
+        &self,
+        free: &[RotorOutput<R>; 4],
+        body: &RigidBodyState<R>,
+        air_velocity_down: R,
+    ) -> [RotorOutput<R>; 4] {
+        let mut acting = *free;
+        if let Some(ground) = &self.ground_effect {
+            let gains = ground.gains(body);
+            for (rotor, gain) in acting.iter_mut().zip(gains) {
+                rotor.thrust *= gain;
+            }
+        }
+        if let Some(blockage) = &self.blockage {
+            for (rotor, free) in acting.iter_mut().zip(free) {
+                rotor.thrust -= blockage.download(free.thrust, -air_velocity_down);
+            }
+        }
+        acting
+    }
+
+    /// Specific force at the centre of mass, `f = F/m` along B with F everything but gravity, m/s²: what an ideal
+    /// accelerometer there reads, `[0, 0, −g]` in hover.
+    pub fn specific_force(
+        &self,
+        state: &QuadrotorState<R, M::State, S::State>,
+        input: &Input<R>,
+    ) -> Vector3<R> {
+        let (_, inputs) = self.rotor_set.rotor_inputs(&state.rotors, &state.supply, input);
+        self.wrench(state, &inputs, &input.wind).force / self.body.mass
     }
 
     /// Gyroscopic torque and spin-up reaction `−Σ s_i I_R Ω̇_i e_z`, N m along B.
@@ -231,6 +276,8 @@ impl<R: Real, M, S> Quadrotor<R, M, S> {
         let set = &self.rotor_set;
         let parts = self.drag.is_some()
             || self.spinning.is_some()
+            || self.ground_effect.is_some()
+            || self.blockage.is_some()
             || set.limits.is_some()
             || set.current_draw.is_some();
         (!parts).then_some(Bare(self))
@@ -327,6 +374,13 @@ where
             rotors: adopted(&inputs),
             supply,
         }
+    }
+
+    fn kicked(&self, state: &Self::State, kick: &Kick<R>) -> Self::State {
+        let mut kicked = *state;
+        kicked.body.velocity += state.body.attitude.conjugate().rotate(&kick.velocity);
+        kicked.body.body_rates += kick.body_rates;
+        kicked
     }
 
     fn hover(&self, position: Vector3<R>, yaw: R) -> Hover<Self::State, R> {

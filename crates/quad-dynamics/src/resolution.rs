@@ -86,6 +86,15 @@ impl Resolution {
         self.features.contains(&Feature::IdentifiedRotorDynamics)
     }
 
+    /// The highest level all of whose structure is among these features.
+    pub fn highest_level_within(features: &BTreeSet<Feature>) -> Level {
+        let complete = |level: &Level| {
+            let mut needed = STRUCTURE.iter().filter(|(from, _)| level >= from);
+            needed.all(|(_, feature)| features.contains(feature))
+        };
+        Level::ALL.into_iter().rfind(complete).unwrap_or(Level::One)
+    }
+
     /// What this model has and the other lacks.
     pub fn beyond(&self, other: &Self) -> Vec<Feature> {
         self.features.difference(&other.features).copied().collect()

@@ -54,6 +54,7 @@
 //! | PID, derivative filter, back-calculation | [`Pid`] | 6.6.1 |
 //! | what a tuning minimises | [`pid::tune`], head of `pid/tuning.rs` | choice |
 //! | legs of degree 9 in position, 7 in heading | [`Trajectory`] | 6.5 |
+//! | `ψ = atan2(Δy, Δx)` towards a point | [`FlatOutput::facing`] | appendix A |
 //! | settling, overshoot, steady-state and RMS error, effort | [`metrics`] | 6.5 |
 //!
 //! # Conventions
@@ -72,6 +73,7 @@
 mod any;
 mod closed_loop;
 mod controller;
+pub mod facing;
 mod generic;
 mod inversion;
 pub mod metrics;

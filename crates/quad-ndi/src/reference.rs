@@ -13,6 +13,7 @@
 //! trajectory's derivatives are fed forward); Mellinger and Kumar, ICRA 2011 (flatness).
 
 use nalgebra::Vector3;
+use quad_kinematics::EulerAngles;
 use quad_math::{Real, constant};
 
 /// Position and heading with their derivatives.
@@ -85,6 +86,14 @@ impl<R: Real> FlatOutput<R> {
             yaw_acceleration: none,
             yaw_jerk: none,
         }
+    }
+}
+
+impl<R: Real> FlatOutput<R> {
+    /// The attitude η = [φ, θ, ψ] that the path implies in gravity `g`, m/s².
+    pub fn attitude(&self, gravity: R, law: TiltLaw) -> EulerAngles<R> {
+        let (roll, pitch) = tilt(self, gravity, law);
+        EulerAngles::new(roll.0[0], pitch.0[0], self.yaw)
     }
 }
 

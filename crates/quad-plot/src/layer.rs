@@ -8,7 +8,7 @@ use kuva::render::plots::Plot;
 
 use super::axis::{Scale, SettledAxis};
 use super::decimate::{Resolution, decimate};
-use super::legend::{Entry, Sample};
+use super::legend::{DOT, Entry, Sample};
 use super::panel::{BandPoint, ErrorBar};
 use super::style::{Look, Marker};
 
@@ -178,7 +178,7 @@ fn scatter_plot(look: &Look, points: &[ErrorBar]) -> ScatterPlot {
     let plot = ScatterPlot::new()
         .with_data(points.iter().map(|p| (p.x, p.y)))
         .with_color(look.colour)
-        .with_size(MARKER_SIZE)
+        .with_size(size(look.marker))
         .with_marker(shape(look.marker));
     if points.iter().any(|p| p.half_width > 0.0) {
         plot.with_y_err(points.iter().map(|p| p.half_width))
@@ -194,10 +194,18 @@ fn band_plot(look: &Look, points: &[BandPoint]) -> BandPlot {
         .with_opacity(BAND_OPACITY)
 }
 
+/// Size of a marker, px.
+fn size(marker: Marker) -> f64 {
+    match marker {
+        Marker::Dot => DOT * MARKER_SIZE,
+        _ => MARKER_SIZE,
+    }
+}
+
 /// kuva's name of a marker.
 fn shape(marker: Marker) -> MarkerShape {
     match marker {
-        Marker::Circle => MarkerShape::Circle,
+        Marker::Circle | Marker::Dot => MarkerShape::Circle,
         Marker::Square => MarkerShape::Square,
         Marker::Triangle => MarkerShape::Triangle,
         Marker::Diamond => MarkerShape::Diamond,

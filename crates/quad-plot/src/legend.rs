@@ -128,6 +128,9 @@ fn draw_sample(svg: &mut Svg, entry: &Entry, left: Point) {
     }
 }
 
+/// Radius of a dot, of a marker's.
+pub(super) const DOT: f64 = 0.4;
+
 /// Draws a marker of this radius, px.
 pub(super) fn draw_marker(svg: &mut Svg, centre: Point, look: &Look, radius: f64) {
     let corners = |offsets: &[(f64, f64)]| -> Vec<Point> {
@@ -162,6 +165,7 @@ pub(super) fn draw_marker(svg: &mut Svg, centre: Point, look: &Look, radius: f64
                 None,
             );
         }
+        Marker::Dot => svg.circle(centre, DOT * radius, look.colour, None),
         Marker::Cross => {
             let pen = Look::solid(look.colour, 1.5);
             svg.polyline(&corners(&[(-0.9, -0.9), (0.9, 0.9)]), &pen);

@@ -49,6 +49,8 @@ pub enum Marker {
     TriangleDown,
     /// Diagonal cross.
     Cross,
+    /// Small disc, for clouds of points.
+    Dot,
 }
 
 impl Look {

@@ -11,7 +11,7 @@ use crate::varied::{Setting, Template, setting};
 use crate::{drawing, interrupt, report};
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
-use quad_dynamics::Level;
+use quad_dynamics::{Level, Phenomenon};
 use quad_kinematics::EulerAngles;
 use quad_plot::figure::Legends;
 use quad_plot::{Figure, Panel, level_name, level_style};
@@ -107,6 +107,12 @@ fn at_level(scenario: &Scenario, level: Level, keep: bool) -> Scenario {
         quadrotor.level = level;
         quadrotor.phenomena = None;
         quadrotor.level_changes.clear();
+        quadrotor.level_rule = None;
+        if !level.phenomena().contains(Phenomenon::Drag) {
+            // What moves in the air is not felt without drag.
+            quadrotor.wind.shear = None;
+            quadrotor.wind.turbulence = None;
+        }
         let kept = keep && given.lowest_level() <= level;
         quadrotor.controller.kind = if kept { given } else { Law::Paired.at(level) };
     }

@@ -1,5 +1,6 @@
 //! `sifre`: the command line of the simulation engine.
 
+mod animate;
 mod disk;
 mod doctor;
 mod drawing;
@@ -52,6 +53,8 @@ enum What {
     Sweep(sweep::Arguments),
     /// Draw a recording.
     Plot(plot::Arguments),
+    /// Draw a flight as a page that moves, for a browser.
+    Animate(animate::Arguments),
     /// Write a commented scenario to start from.
     New(new::Arguments),
     /// Print the JSON schema of scenario files, for editors.
@@ -72,6 +75,7 @@ fn main() -> ExitCode {
         What::Levels(arguments) => levels::run(&arguments, json),
         What::Sweep(arguments) => sweep::run(&arguments, json),
         What::Plot(arguments) => plot::run(&arguments, json),
+        What::Animate(arguments) => animate::run(&arguments, json),
         What::New(arguments) => new::run(&arguments, json),
         What::Schema => schema::run(),
         What::Doctor => doctor::run(json),

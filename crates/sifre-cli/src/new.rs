@@ -6,7 +6,7 @@ use crate::report;
 use std::path::PathBuf;
 
 /// The scenarios that come with the project: name and file.
-pub(crate) const READY: [(&str, &str); 16] = [
+pub(crate) const READY: [(&str, &str); 17] = [
     ("template", include_str!("../template.toml")),
     ("hover", include_str!("../../../scenarios/hover.toml")),
     (
@@ -20,6 +20,10 @@ pub(crate) const READY: [(&str, &str); 16] = [
     ("helix", include_str!("../../../scenarios/helix.toml")),
     ("waypoints", include_str!("../../../scenarios/waypoints.toml")),
     ("gust", include_str!("../../../scenarios/gust.toml")),
+    (
+        "near-the-ground",
+        include_str!("../../../scenarios/near-the-ground.toml"),
+    ),
     ("crazyflie", include_str!("../../../scenarios/crazyflie.toml")),
     ("payload", include_str!("../../../scenarios/payload.toml")),
     (

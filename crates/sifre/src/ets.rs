@@ -208,6 +208,10 @@ impl Agent for Ets {
             "rad/s",
             Frame::Scalar,
         ));
+        // Where it stands does not change; it is recorded so that a recording can be understood alone.
+        let xyz = ["x", "y", "z"];
+        all.extend(Channel::group("position", xyz, Role::State, "m", Frame::World));
+        all.push(Channel::new("heading", Role::State, "rad", Frame::Scalar));
         // 0 searching, 1 coasting, 2 tracking.
         all.push(Channel::new("mode", Role::State, "1", Frame::Scalar));
         all.extend(Channel::group(
@@ -257,12 +261,16 @@ impl Agent for Ets {
             Mode::Coasting => 1.0,
             Mode::Tracking => 2.0,
         };
-        let target = &self.face.centre;
+        let (target, pedestal) = (&self.face.centre, &self.setup.station.pedestal);
         row.copy_from_slice(&[
             gimbal.pan,
             gimbal.tilt,
             gimbal.pan_rate,
             gimbal.tilt_rate,
+            pedestal.position[0],
+            pedestal.position[1],
+            pedestal.position[2],
+            pedestal.heading,
             mode,
             command.pan_rate,
             command.tilt_rate,

@@ -5,7 +5,9 @@
 //! ```
 //!
 //! with Δ from the quadrotor to the agent, both as published; higher derivatives of the heading are left at
-//! zero. Near the vertical above or below the agent, where there is no bearing, the path's own heading holds.
+//! zero. Near the vertical above or below the agent, where there is no bearing, the path's own heading holds
+//! ([`FlatOutput::facing`]). The tilt that the path feeds forward is turned into the new heading, as far as the path says
+//! how it came by it ([`Guidance::tilt`]).
 //! Source: thesis appendix A (the quadrotor yaws to face the ground station).
 
 use crate::agent::{AgentId, Directory, Moment};
@@ -15,8 +17,14 @@ use quad_ndi::{AttitudeFeedForward, FlatOutput, Reference, TiltLaw, Trajectory, 
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 
-/// Horizontal distance below which an agent has no bearing, m.
-const LEAST_DISTANCE: f64 = 1e-3;
+/// By which law a guidance feeds forward the tilt that its path implies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tilt {
+    /// Gravity g, m/s².
+    pub gravity: f64,
+    /// How acceleration and tilt go together.
+    pub law: TiltLaw,
+}
 
 /// Anything that tells a quadrotor what to do.
 ///
@@ -32,6 +40,12 @@ pub trait Guidance: Debug + Send {
 
     /// What to do from this instant on.
     fn reference(&self, now: &Moment<'_>) -> Reference<f64>;
+
+    /// By which law its reference feeds the attitude forward, for who gives the path another heading; `None` if it feeds
+    /// forward nothing or something else.
+    fn tilt(&self) -> Option<Tilt> {
+        None
+    }
 }
 
 /// A fixed reference.
@@ -74,6 +88,13 @@ impl Guidance for Mission {
             self.gravity,
             self.tilt_law,
         )
+    }
+
+    fn tilt(&self) -> Option<Tilt> {
+        Some(Tilt {
+            gravity: self.gravity,
+            law: self.tilt_law,
+        })
     }
 }
 
@@ -149,29 +170,30 @@ impl<G: Guidance> Guidance for Facing<G> {
     fn reference(&self, now: &Moment<'_>) -> Reference<f64> {
         let path = self.guidance.reference(now);
         let (own, faced) = (now.own(), now.published(self.faced.unwrap_or(now.me)));
-        let (d, v) = (faced.position - own.position, faced.velocity - own.velocity);
-        let square = d.x * d.x + d.y * d.y;
-        if square < LEAST_DISTANCE * LEAST_DISTANCE {
-            return path;
-        }
-        let yaw_rate = (d.x * v.y - d.y * v.x) / square;
-        let mut rates = path.attitude.rates;
-        rates.z = yaw_rate;
-        let without_yaw = |v: Vector3<f64>| Vector3::new(v.x, v.y, 0.0);
-        Reference {
-            flat: FlatOutput {
-                yaw: quad_math::atan2(d.y, d.x),
-                yaw_rate,
-                yaw_acceleration: 0.0,
-                yaw_jerk: 0.0,
-                ..path.flat
-            },
-            attitude: AttitudeFeedForward {
-                rates,
-                accelerations: without_yaw(path.attitude.accelerations),
-                jerks: without_yaw(path.attitude.jerks),
+        let flat = path
+            .flat
+            .facing(&(faced.position - own.position), &(faced.velocity - own.velocity));
+        match self.guidance.tilt() {
+            Some(Tilt { gravity, law }) => Reference::following(flat, gravity, law),
+            None => Reference {
+                flat,
+                attitude: with_yaw(&path.attitude, &flat),
             },
         }
+    }
+
+    fn tilt(&self) -> Option<Tilt> {
+        self.guidance.tilt()
+    }
+}
+
+/// The feed-forward of the attitude with the yaw of a flat output.
+fn with_yaw(attitude: &AttitudeFeedForward<f64>, flat: &FlatOutput<f64>) -> AttitudeFeedForward<f64> {
+    let yawing = |v: Vector3<f64>, yaw| Vector3::new(v.x, v.y, yaw);
+    AttitudeFeedForward {
+        rates: yawing(attitude.rates, flat.yaw_rate),
+        accelerations: yawing(attitude.accelerations, flat.yaw_acceleration),
+        jerks: yawing(attitude.jerks, flat.yaw_jerk),
     }
 }
 
@@ -242,6 +264,36 @@ mod tests {
             // h²/6 times a third derivative of at most some (6/2)³ = 1e2, and rounding 1e-16 / h.
             prop_assert!((flat.yaw_rate - turn / (2.0 * h)).abs() < 1e-8);
         }
+    }
+
+    /// A path that accelerates, flown with the nose on an agent far behind it: the tilt's feed-forward is that of the heading flown.
+    #[test]
+    fn agree_the_tilt_is_that_of_the_heading_flown() {
+        let waypoint = |time_s, position_m, yaw_rad| Waypoint {
+            time_s,
+            position_m,
+            velocity_m_s: [0.0; 3],
+            yaw_rad,
+            yaw_rate_rad_s: 0.0,
+        };
+        let path = |yaw| {
+            let ends = [waypoint(0.0, [0.0; 3], yaw), waypoint(2.0, [1.0, 0.5, -0.3], yaw)];
+            Mission::through(&ends, 9.81, TiltLaw::Exact).unwrap()
+        };
+        let far = Vector3::new(-1e9, 0.0, 0.0);
+        let at = |position| Published::at_rest(position, Rotation::identity());
+        let scene = [at(Vector3::zeros()), at(far)];
+        let now = Moment {
+            time_s: 0.4,
+            ..moment(&scene)
+        };
+        let mut facing = Facing::agent(path(0.0), "other");
+        facing.faced = Some(AgentId(1));
+        let (flown, wanted) = (facing.reference(&now), path(std::f64::consts::PI).reference(&now));
+        assert!(wanted.attitude.rates.x.abs() > 0.01 && wanted.attitude.rates.y.abs() > 0.01);
+        // The bearing turns by 1e-9 rad/s and less; sines of π are 1e-16.
+        assert!((flown.attitude.rates - wanted.attitude.rates).norm() < 1e-12);
+        assert!((flown.attitude.jerks - wanted.attitude.jerks).norm() < 1e-12);
     }
 
     #[test]

@@ -95,7 +95,7 @@ pub use clock::StepSize;
 pub use error::{BindError, SimulationError, SnapshotError, UnknownAgent};
 pub use event::{AgentEvent, Event};
 pub use exact::Exact;
-pub use guidance::{Facing, Follow, Guidance, Mission};
+pub use guidance::{Facing, Follow, Guidance, Mission, Tilt};
 pub use optimiser::{
     Candidate, Evaluation, Optimiser, OptimiserError, RandomSearch, TellError, Variable, minimise,
 };

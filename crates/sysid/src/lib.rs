@@ -10,6 +10,7 @@
 //! | [`laboratory`] | virtual measurements |
 
 pub mod centre_of_mass;
+pub mod coverage;
 pub mod estimate;
 pub mod flight;
 pub mod laboratory;

@@ -1,1 +1,30 @@
 //! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
+
+mod condition;
+mod cost;
+mod decision;
+mod engine;
+mod error;
+mod fleet;
+mod ideal;
+mod mission;
+mod nominal;
+pub mod optimisers;
+mod outcome;
+mod path;
+mod problem;
+mod rollout;
+pub mod selection;
+mod surface;
+
+pub use condition::{Axis, Condition, Order, Side, UnknownCondition};
+pub use cost::{BEND, FAILURE, LOST_M, Penalties, Terms, Weights};
+pub use decision::Decision;
+pub use engine::{EngineError, QUADROTOR, STATION};
+pub use error::ProblemError;
+pub use mission::{Ends, Mission, Pairing};
+pub use nominal::{Choice, HALF_CROSSING_M, HEIGHT_M, POSITION_SETTLING_S};
+pub use outcome::{Failure, Histories, History, Outcome};
+pub use path::Path;
+pub use problem::{Gradient, LANES, Problem};
+pub use surface::{Grid, Minimum, Objective, Surface};

@@ -4,6 +4,7 @@
 
 use crate::item::Item;
 
+mod appendix_a;
 mod appendix_b;
 mod appendix_c;
 mod appendix_e;
@@ -19,7 +20,8 @@ mod chapter_7;
 mod glyphs;
 mod photographs;
 
-pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings};
+pub(crate) use chapter_4::agreement_with_a_recorded_flight;
+pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings, reference_scenario};
 
 const CHAPTERS: &[&[Item]] = &[
     photographs::ITEMS,
@@ -30,6 +32,7 @@ const CHAPTERS: &[&[Item]] = &[
     chapter_5::ITEMS,
     chapter_6::ITEMS,
     chapter_7::ITEMS,
+    appendix_a::ITEMS,
     appendix_b::ITEMS,
     appendix_c::ITEMS,
     appendix_e::ITEMS,

@@ -46,7 +46,11 @@ fn round_trip<F: Family>(draw: &Draw) -> Result<(), TestCaseError> {
 
 /// Hover: no acceleration of any kind, in the air and in the rotors; only the battery's charge moves.
 fn hover_is_a_fixed_point<F: Family>(vehicle: &Vehicle, yaw: f64) -> Result<(), TestCaseError> {
-    for on in [PhenomenonSet::none(), everything::<F>()] {
+    // The trim is that of free air.
+    for on in [
+        PhenomenonSet::none(),
+        everything::<F>().without(Phenomenon::GroundEffect),
+    ] {
         let model = F::Over::<f64>::build(vehicle, &on).unwrap();
         let hover = model.hover(Vector3::new(1.0, 2.0, -3.0), yaw);
         let rates = flat(&model.derivative(&hover.state, &hover.input));
@@ -71,7 +75,9 @@ fn hover_is_a_fixed_point<F: Family>(vehicle: &Vehicle, yaw: f64) -> Result<(), 
 
 /// One second of hover under RK4 goes nowhere, battery sag excepted.
 fn hover_stays<F: Family>(vehicle: &Vehicle) -> Result<(), TestCaseError> {
-    let on = everything::<F>().without(Phenomenon::VoltageSag);
+    let on = everything::<F>()
+        .without(Phenomenon::VoltageSag)
+        .without(Phenomenon::GroundEffect);
     let model = F::Over::<f64>::build(vehicle, &on).unwrap();
     let hover = model.hover(Vector3::new(1.0, 2.0, -3.0), 0.7);
     let end = (0..250).fold(hover.state, |x, _| {

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use nalgebra::Matrix4;
 
 use super::{
-    BatteryParameters, DragParameters, MotorParameters, PolynomialRotorParameters, PropellerParameters,
-    RotorDynamicsParameters, Vehicle, VehicleError,
+    ArmParameters, BatteryParameters, DragParameters, MotorParameters, PolynomialRotorParameters,
+    PropellerParameters, RotorDynamicsParameters, Vehicle, VehicleError,
 };
 
 /// Number of rotors, as the divisor of shares.
@@ -102,6 +102,14 @@ impl Vehicle {
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
     pub fn require_drag(&self, needed_by: &'static str) -> Result<&DragParameters, VehicleError> {
         self.require(&self.drag, "drag", needed_by)
+    }
+
+    /// Arms under the rotors.
+    ///
+    /// # Errors
+    /// [`VehicleError::MissingGroup`] if the vehicle has none.
+    pub fn require_arms(&self, needed_by: &'static str) -> Result<&ArmParameters, VehicleError> {
+        self.require(&self.arms, "arms", needed_by)
     }
 
     fn require<'a, T>(

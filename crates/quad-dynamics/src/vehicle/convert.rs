@@ -3,14 +3,14 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::file::{
-    AirframeFile, BatteryFile, DragFile, EnvironmentFile, LinearRotorFile, MotorFile, Number,
+    AirframeFile, ArmsFile, BatteryFile, DragFile, EnvironmentFile, LinearRotorFile, MotorFile, Number,
     PolynomialRotorFile, PropellerFile, PwmFile, RotorDynamicsFile, RotorFile, Triple,
 };
 use super::limits::{self, Quantity};
 use super::{
-    Airframe, BatteryParameters, DragParameters, Environment, LinearRotorParameters, MotorParameters,
-    PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters, RotorMount, Sourced,
-    Vehicle, VehicleError, VehicleFile,
+    Airframe, ArmParameters, BatteryParameters, DragParameters, Environment, LinearRotorParameters,
+    MotorParameters, PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters,
+    RotorMount, Sourced, Vehicle, VehicleError, VehicleFile,
 };
 
 impl Vehicle {
@@ -103,6 +103,7 @@ impl Reader<'_> {
                 .map(|group| self.battery(group))
                 .transpose()?,
             drag: file.drag.as_ref().map(|group| self.drag(group)).transpose()?,
+            arms: file.arms.as_ref().map(|group| self.arms(group)).transpose()?,
         })
     }
 
@@ -214,6 +215,14 @@ impl Reader<'_> {
         })
     }
 
+    fn arms(&self, file: &ArmsFile) -> Result<ArmParameters, VehicleError> {
+        Ok(ArmParameters {
+            width: self.number(&file.width_m, &limits::ARM_WIDTH)?,
+            drag_coefficient: self.number(&file.drag_coefficient, &limits::ARM_DRAG_COEFFICIENT)?,
+            drop: self.number(&file.drop_m, &limits::ARM_DROP)?,
+        })
+    }
+
     fn optional(&self, number: &Option<Number>, quantity: &Quantity) -> Result<f64, VehicleError> {
         number
             .as_ref()
@@ -312,6 +321,11 @@ impl Writer<'_> {
             drag: vehicle.drag.map(|group| DragFile {
                 quadratic_n_s2_m2: self.triple(group.quadratic),
                 rate_damping_n_m_s: self.triple(group.rate_damping),
+            }),
+            arms: vehicle.arms.map(|group| ArmsFile {
+                width_m: number(group.width),
+                drag_coefficient: number(group.drag_coefficient),
+                drop_m: number(group.drop),
             }),
         }
     }

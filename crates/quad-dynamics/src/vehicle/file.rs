@@ -72,6 +72,9 @@ pub struct VehicleFile {
     /// Drag and rate damping of the airframe.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drag: Option<DragFile>,
+    /// Arms under the rotors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arms: Option<ArmsFile>,
 }
 
 impl VehicleFile {
@@ -258,6 +261,18 @@ pub struct DragFile {
     pub quadratic_n_s2_m2: Triple,
     /// Rate damping per body axis, N·m·s.
     pub rate_damping_n_m_s: Triple,
+}
+
+/// The TOML table `[arms]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArmsFile {
+    /// Width across the slipstream, m.
+    pub width_m: Number,
+    /// Drag coefficient C_D on the width, dimensionless.
+    pub drag_coefficient: Number,
+    /// Distance below the rotor disc, m.
+    pub drop_m: Number,
 }
 
 /// Line and column, counted from 1, of a byte in the text.

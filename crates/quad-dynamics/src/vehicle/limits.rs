@@ -229,3 +229,7 @@ pub(super) const EXPONENTIAL_RATE: Quantity =
 
 pub(super) const QUADRATIC_DRAG: Quantity = quantity("drag.quadratic_n_s2_m2", "N·s²/m²", 0.0, 1e3, "");
 pub(super) const RATE_DAMPING: Quantity = quantity("drag.rate_damping_n_m_s", "N·m·s", 0.0, 1e3, "");
+
+pub(super) const ARM_WIDTH: Quantity = quantity("arms.width_m", "m", 1e-4, 1.0, "is this in millimetres?");
+pub(super) const ARM_DRAG_COEFFICIENT: Quantity = quantity("arms.drag_coefficient", "(ratio)", 0.0, 3.0, "");
+pub(super) const ARM_DROP: Quantity = quantity("arms.drop_m", "m", 0.0, 1.0, "is this in millimetres?");

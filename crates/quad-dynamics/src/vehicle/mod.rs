@@ -76,6 +76,8 @@ pub struct Vehicle {
     pub battery: Option<BatteryParameters>,
     /// Drag and rate damping of the airframe.
     pub drag: Option<DragParameters>,
+    /// Arms under the rotors.
+    pub arms: Option<ArmParameters>,
 }
 
 /// Where a vehicle flies.
@@ -216,4 +218,15 @@ pub struct DragParameters {
     pub quadratic: Vector3<f64>,
     /// Rate damping per body axis, N·m·s: `M_i = −d_i ω_i`.
     pub rate_damping: Vector3<f64>,
+}
+
+/// The arms, each of which runs in from its hub under half of the rotor's disc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArmParameters {
+    /// Width across the slipstream, m.
+    pub width: f64,
+    /// Drag coefficient C_D on the width, dimensionless.
+    pub drag_coefficient: f64,
+    /// Distance below the rotor disc, m.
+    pub drop: f64,
 }

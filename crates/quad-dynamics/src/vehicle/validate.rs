@@ -254,6 +254,13 @@ impl Checker<'_> {
             self.vector(&group.quadratic, &limits::QUADRATIC_DRAG)?;
             self.vector(&group.rate_damping, &limits::RATE_DAMPING)?;
         }
+        if let Some(group) = &vehicle.arms {
+            self.all(&[
+                (group.width, limits::ARM_WIDTH),
+                (group.drag_coefficient, limits::ARM_DRAG_COEFFICIENT),
+                (group.drop, limits::ARM_DROP),
+            ])?;
+        }
         Ok(())
     }
 

@@ -122,6 +122,35 @@ fn prop_gust_pushes_south_and_it_comes_back() {
     assert!(flown.last("alpha.position.x").abs() < 0.02);
 }
 
+/// The wind drifts it south and shakes it; near the ground less thrust is asked for than in the free air.
+#[test]
+fn prop_near_the_ground_all_phenomena_act_together() {
+    let flown = done("near-the-ground");
+    let mean = |channel: &str, from: usize, to: usize| {
+        flown.column(channel)[from..to].iter().sum::<f64>() / (to - from) as f64
+    };
+    // 200 to 1999: rows every 10 ms.
+    assert!(mean("alpha.position.x", 200, 1999) < 0.0);
+    let commands = |from: usize, to: usize| {
+        (1..=4)
+            .map(|rotor| mean(&format!("alpha.command.{rotor}"), from, to))
+            .sum::<f64>()
+    };
+    // Cheeseman and Bennett at 0.25 m: 1 / (1 - (R / 4 h)²) with R = 0.127 m is 1.6 %.
+    let saved = 1.0 - commands(1400, 1999) / commands(0, 200);
+    assert!((0.003..0.03).contains(&saved), "{saved}");
+    // Without turbulence there is none.
+    let calm = fly(&ready("near-the-ground")
+        .replace("\"turbulence\"", "\"drag\"")
+        .replace("turbulence = {", "# {"));
+    // Then the wind is the logarithmic one, ln(h/z_0) / ln(20 ft / z_0), at the height h where it was decided.
+    let height = -calm.last("alpha.position.z");
+    let expected = -3.0 * (height / 0.046).ln() / (6.096_f64 / 0.046).ln();
+    assert!((calm.last("alpha.wind.x") - expected).abs() < 1e-9);
+    assert!(calm.column("alpha.wind.y").iter().all(|wind| *wind == 0.0));
+    assert!(flown.column("alpha.wind.y").iter().any(|wind| *wind != 0.0));
+}
+
 #[test]
 fn prop_the_crazyflie_flies_with_gains_from_its_file() {
     let flown = done("crazyflie");

@@ -272,6 +272,27 @@ fn exact_recordings_are_drawn() {
 }
 
 #[test]
+fn exact_flights_become_pages() {
+    let folder = Folder::new("animate");
+    let scenario = ready("power-transmission-10s");
+    folder.run(&["animate", &scenario, "-o", "flown.html"]).exits(0);
+    folder
+        .run(&["run", "-q", &scenario, "-o", "a.csv", "--set", "duration_s=1"])
+        .exits(0);
+    folder
+        .run(&["animate", "a.csv", "--scenario", &scenario])
+        .exits(0);
+    for page in ["flown.html", "a.html"] {
+        let text = fs::read_to_string(folder.path(page)).unwrap();
+        assert!(text.contains("power transmission, 10 s") && text.contains("station"));
+    }
+    folder
+        .run(&["animate", "missing.csv"])
+        .exits(2)
+        .says(&["missing.csv"]);
+}
+
+#[test]
 fn exact_shells_are_served() {
     let folder = Folder::new("shells");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {

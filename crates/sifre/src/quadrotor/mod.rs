@@ -10,22 +10,30 @@
 //! (lift or restrict, [`quad_dynamics::Snapshot`]), so position, velocity, attitude and rates go on without a
 //! jump, and thrust and torque where the new level has states for them.
 
+mod air;
 mod pilot;
 mod record;
+mod rule;
 mod setup;
 
+pub use air::{AirError, ProcessNoiseSource, STRONGEST_WIND_M_S, Turbulence, Wind};
 pub use pilot::{OpenLoop, Pilot};
+pub use rule::{LevelRule, RuleError};
 pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};
 
-use crate::agent::{Agent, Directory, MemoryError, Moment, Published};
+use crate::agent::{Agent, AgentId, Directory, MemoryError, Moment, Published};
 use crate::black_box::Channel;
 use crate::error::BindError;
 use crate::event::AgentEvent;
 use crate::exact::{Exact, exact, plain};
+use air::Air;
 use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, BuildError, Flight, Input, Level, PhenomenonSet, Vehicle};
+use quad_dynamics::{
+    AnyQuadrotor, BuildError, Flight, Input, Level, Phenomenon, PhenomenonSet, Snapshot, Vehicle,
+};
 use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
+use rule::Side;
 use serde::{Deserialize, Serialize};
 
 /// A quadrotor at any level, under any pilot, with any guidance.
@@ -36,13 +44,24 @@ pub struct Quadrotor {
     reference: Reference<f64>,
     /// Commands at the rotors, disturbance included, and wind.
     input: Input<f64>,
-    /// The models that the script will ask for, in its order.
+    /// Wind and gusts about it.
+    air: Air,
+    /// Charge drawn, A h, while it flies at a level without a battery.
+    charge_drawn: f64,
+    /// What hover draws at the levels of the script that have a battery, A h/s.
+    hover_draw: f64,
+    /// The models that the script will ask for, in its order; a rule's fine and coarse ones.
     scripted: Vec<AnyQuadrotor<f64>>,
-    /// The entry of the script's levels in force.
+    /// The entry of the script's levels, or the side of its rule, in force.
     entry: Option<usize>,
-    /// One RK4 step per step and no disturbance of the commands: model and controller may fly as one.
+    /// The agent whose distance the rule looks at.
+    near: Option<AgentId>,
+    /// One RK4 step per step and no disturbance of commands or state: model and controller may fly as one.
     is_plain: bool,
 }
+
+/// Step over which the current of hover is taken, s: any, it hardly changes in a second.
+const DRAW_STEP_S: f64 = 1e-3;
 
 /// All that a quadrotor needs to go on.
 #[derive(Serialize, Deserialize)]
@@ -55,16 +74,26 @@ struct Memory {
     pilot: Vec<Exact>,
     commands: [Exact; 4],
     wind: [Exact; 3],
+    air: [Exact; 5],
+    charge_drawn: Exact,
 }
 
 /// A model of the vehicle in hover.
 fn model(
     vehicle: &Vehicle,
-    choice: &LevelChoice,
+    level: Level,
+    phenomena: &PhenomenonSet,
     at: Vector3<f64>,
     yaw: f64,
 ) -> Result<AnyQuadrotor<f64>, BuildError> {
-    AnyQuadrotor::hovering(choice.level, vehicle, &choice.phenomena(), at, yaw)
+    AnyQuadrotor::hovering(level, vehicle, phenomena, at, yaw)
+}
+
+/// What a model draws from its battery in hover, A h/s; nothing where it has none that sags.
+fn hover_draw(model: &AnyQuadrotor<f64>) -> f64 {
+    let (mut hovering, input) = (model.clone(), model.hover_input());
+    hovering.step(FixedStep::Rk4, &input, DRAW_STEP_S);
+    (hovering.snapshot(&input).charge_drawn - model.snapshot(&input).charge_drawn) / DRAW_STEP_S
 }
 
 /// The same hover, but with this velocity in W, m/s.
@@ -87,23 +116,33 @@ impl Quadrotor {
             let name = || setup.name.clone();
             check_pairing(setup.pilot.level(), choice.level)
                 .map_err(|error| QuadrotorError::controller(name(), error))?;
-            model(&setup.vehicle, choice, setup.position(), setup.start.yaw_rad)
+            let phenomena = setup.script.phenomena(choice);
+            let (at, yaw) = (setup.position(), setup.start.yaw_rad);
+            model(&setup.vehicle, choice.level, &phenomena, at, yaw)
                 .map_err(|error| QuadrotorError::build(name(), error))
         };
         let mut quadrotor = build(&setup.level)?;
         if setup.velocity_m_s != [0.0; 3] {
             set_moving(&mut quadrotor, setup.velocity_m_s.into());
         }
-        let scripted = setup.script.level.values().map(build).collect::<Result<_, _>>()?;
+        let scripted = setup.script.choices().map(build).collect::<Result<Vec<_>, _>>()?;
+        let models = std::iter::once(&quadrotor).chain(&scripted);
+        let hover_draw = models.map(hover_draw).fold(0.0, f64::max);
         Ok(Self {
             reference: Reference::hold(setup.position(), setup.start.yaw_rad),
             input: quadrotor.hover_input(),
             quadrotor,
+            air: Air::new(&setup.script.wind),
+            charge_drawn: 0.0,
+            hover_draw,
             scripted,
             entry: None,
+            near: None,
             is_plain: setup.method == FixedStep::Rk4
                 && setup.substeps.get() == 1
-                && setup.script.command_offset.values().next().is_none(),
+                && setup.script.command_offset.values().next().is_none()
+                && setup.script.wind.turbulence.is_none()
+                && setup.script.process_noise.is_none(),
             setup,
         })
     }
@@ -128,6 +167,12 @@ impl Quadrotor {
         &self.input
     }
 
+    /// Puts it in the middle of a flight: from now on it flies as if it had flown like this so far, under its present
+    /// input. What it remembers of its own flight is forgotten; for starts in motion.
+    pub fn put_in_flight(&mut self, flight: &Snapshot<f64>) {
+        self.quadrotor.adopt(flight, &self.input);
+    }
+
     /// The same flight goes on at another level.
     ///
     /// # Errors
@@ -136,25 +181,77 @@ impl Quadrotor {
         let name = || self.setup.name.clone();
         check_pairing(self.setup.pilot.level(), choice.level)
             .map_err(|error| QuadrotorError::controller(name(), error))?;
-        let next = model(&self.setup.vehicle, choice, Vector3::zeros(), 0.0)
-            .map_err(|error| QuadrotorError::build(name(), error))?;
+        let phenomena = self.setup.script.phenomena(choice);
+        let next = model(
+            &self.setup.vehicle,
+            choice.level,
+            &phenomena,
+            Vector3::zeros(),
+            0.0,
+        )
+        .map_err(|error| QuadrotorError::build(name(), error))?;
         Ok(self.go_on_as(next))
     }
 
     /// The flight goes on with this model.
     fn go_on_as(&mut self, mut next: AnyQuadrotor<f64>) -> AgentEvent {
-        next.adopt(&self.quadrotor.snapshot(&self.input), &self.input);
+        let mut snapshot = self.quadrotor.snapshot(&self.input);
+        match self.quadrotor.level() {
+            Level::Five => self.charge_drawn = snapshot.charge_drawn,
+            _ => snapshot.charge_drawn = self.charge_drawn,
+        }
+        next.adopt(&snapshot, &self.input);
         let (from, to) = (self.quadrotor.level(), next.level());
         self.setup.pilot.level_changed(&self.quadrotor.flight());
         self.quadrotor = next;
         AgentEvent::LevelChanged { from, to }
     }
 
+    /// Charge drawn from its battery, A h; as in hover while it flies at a level without one.
+    pub fn charge_drawn(&self) -> f64 {
+        match self.quadrotor.level() {
+            Level::Five => self.quadrotor.snapshot(&self.input).charge_drawn,
+            _ => self.charge_drawn,
+        }
+    }
+
     /// Velocity of the air in W, m/s.
     #[inline]
     fn wind(&self, now: &Moment<'_>) -> Vector3<f64> {
-        let wind = self.setup.script.wind_m_s.at(now.time_ns);
-        wind.copied().map_or_else(Vector3::zeros, Vector3::from)
+        let (mean, wind) = (self.mean_wind(now), &self.setup.script.wind);
+        if wind.shear.is_none() && wind.turbulence.is_none() {
+            return mean;
+        }
+        let on = self.quadrotor.phenomena();
+        self.air.velocity(wind, mean, &self.quadrotor.flight(), on)
+    }
+
+    /// Mean wind at the reference height in W, m/s.
+    fn mean_wind(&self, now: &Moment<'_>) -> Vector3<f64> {
+        let script = &self.setup.script;
+        let scheduled = script.wind_m_s.at(now.time_ns).copied().unwrap_or_default();
+        Vector3::from(scheduled) + script.wind.mean(now.time_ns)
+    }
+
+    /// The battery goes on as in hover at levels that don't have one, so that it is not fresh when one comes that does.
+    #[inline]
+    fn draw_charge(&mut self, now: &Moment<'_>) {
+        if self.hover_draw > 0.0 && self.quadrotor.level() != Level::Five {
+            self.charge_drawn += self.hover_draw * now.step_s;
+        }
+    }
+
+    /// Gusts go on, and noise acts on the vehicle at the end of its step.
+    fn disturb(&mut self, now: &Moment<'_>, before: &Flight<f64>) {
+        let mean = self.mean_wind(now);
+        let script = &self.setup.script;
+        let on = self.quadrotor.phenomena();
+        self.air.advance(&script.wind, mean, before, on, now);
+        if let Some(noise) = script.process_noise
+            && on.contains(Phenomenon::ProcessNoise)
+        {
+            self.quadrotor.kick(&noise.kick(now));
+        }
     }
 
     /// Changes the level if the script says so at this instant.
@@ -167,12 +264,22 @@ impl Quadrotor {
     }
 
     fn change_if_due(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
-        let entry = self.setup.script.level.place_at(now.time_ns)?;
+        let entry = match (&self.setup.script.rule, self.near) {
+            (Some(rule), Some(near)) => {
+                let distance = (now.published(near).position - now.own().position).norm();
+                rule.side(distance, self.entry.map(Side::at)).place()
+            }
+            _ => self.setup.script.level.place_at(now.time_ns)?,
+        };
         if self.entry == Some(entry) {
             return None;
         }
         self.entry = Some(entry);
-        let next = self.scripted[entry].clone();
+        let next = &self.scripted[entry];
+        if (next.level(), next.phenomena()) == (self.quadrotor.level(), self.quadrotor.phenomena()) {
+            return None;
+        }
+        let next = next.clone();
         Some(self.go_on_as(next))
     }
 
@@ -180,11 +287,8 @@ impl Quadrotor {
     fn read(&self, memory: &serde_json::Value) -> Result<(Memory, AnyQuadrotor<f64>), MemoryError> {
         let memory = Memory::deserialize(memory)?;
         check_pairing(self.setup.pilot.level(), memory.level)?;
-        let choice = LevelChoice {
-            level: memory.level,
-            phenomena: Some(memory.phenomena.clone()),
-        };
-        let mut quadrotor = model(&self.setup.vehicle, &choice, Vector3::zeros(), 0.0)?;
+        let vehicle = &self.setup.vehicle;
+        let mut quadrotor = model(vehicle, memory.level, &memory.phenomena, Vector3::zeros(), 0.0)?;
         MemoryError::check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
         quadrotor.read_state(&plain(&memory.state));
         Ok((memory, quadrotor))
@@ -201,6 +305,9 @@ impl Agent for Quadrotor {
     }
 
     fn bind(&mut self, directory: &Directory<'_>) -> Result<(), BindError> {
+        if let Some(rule) = &self.setup.script.rule {
+            self.near = Some(directory.find(&rule.near)?);
+        }
         Ok(self.setup.guidance.bind(directory)?)
     }
 
@@ -231,9 +338,16 @@ impl Agent for Quadrotor {
     fn advance(&mut self, now: &Moment<'_>) {
         let substeps = self.setup.substeps.get();
         let h = now.step_s / f64::from(substeps);
+        let script = &self.setup.script;
+        let is_disturbed = script.wind.turbulence.is_some() || script.process_noise.is_some();
+        let before = is_disturbed.then(|| self.quadrotor.flight());
         for _ in 0..substeps {
             self.quadrotor.step(self.setup.method, &self.input, h);
         }
+        if let Some(before) = before {
+            self.disturb(now, &before);
+        }
+        self.draw_charge(now);
     }
 
     fn decide_and_advance(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
@@ -249,6 +363,7 @@ impl Agent for Quadrotor {
             .setup
             .pilot
             .fly(&mut self.quadrotor, &reference, &self.input.wind, now);
+        self.draw_charge(now);
         event
     }
 
@@ -271,6 +386,8 @@ impl Agent for Quadrotor {
             pilot: exact(&self.setup.pilot.memory()),
             commands: self.input.commands.map(Exact),
             wind: <[f64; 3]>::from(self.input.wind).map(Exact),
+            air: self.air.memory().map(Exact),
+            charge_drawn: Exact(self.charge_drawn),
         })
     }
 
@@ -279,6 +396,8 @@ impl Agent for Quadrotor {
         self.setup.pilot.restore(&plain(&memory.pilot))?;
         self.quadrotor = quadrotor;
         self.entry = memory.entry;
+        self.air = Air::remembered(memory.air.map(|x| x.0));
+        self.charge_drawn = memory.charge_drawn.0;
         self.input.commands = memory.commands.map(|u| u.0);
         self.input.wind = Vector3::from(memory.wind.map(|w| w.0));
         Ok(())

@@ -68,7 +68,7 @@ pub(super) fn write(of: &Quadrotor, row: &mut [f64]) {
     put(&vector(&flight.velocity));
     put(&vector(&flight.attitude.vector()));
     put(&vector(&flight.body_rates));
-    put(&[f64::from(of.quadrotor.level().number()), snapshot.charge_drawn]);
+    put(&[f64::from(of.quadrotor.level().number()), of.charge_drawn()]);
     put(&snapshot.rotors.map(|rotor| rotor.output.thrust));
     put(&of.input.commands);
     put(&vector(&of.input.wind));

@@ -1,10 +1,12 @@
 //! How a quadrotor agent is put together.
 
+use super::air::{AirError, ProcessNoiseSource, Wind, check_speed};
 use super::pilot::Pilot;
+use super::rule::{LevelRule, RuleError};
 use crate::guidance::Guidance;
 use crate::schedule::{Schedule, ScheduleError};
 use nalgebra::Vector3;
-use quad_dynamics::{BuildError, Level, PhenomenonSet, Vehicle};
+use quad_dynamics::{BuildError, Level, Phenomenon, PhenomenonSet, Vehicle};
 use quad_math::FixedStep;
 use quad_ndi::ControllerError;
 use serde::{Deserialize, Serialize};
@@ -57,8 +59,102 @@ pub struct Script {
     pub wind_m_s: Schedule<[f64; 3]>,
     /// A disturbance of the input: added to the pilot's commands on their way to the rotors, in zeroed duty.
     pub command_offset: Schedule<[f64; 4]>,
+    /// More about the air: a wind that is added to the one above, its growth with height, and gusts.
+    #[serde(skip_serializing_if = "Wind::is_still")]
+    pub wind: Wind,
+    /// Noise on the accelerations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub process_noise: Option<ProcessNoiseSource>,
     /// Changes of level in flight.
     pub level: Schedule<LevelChoice>,
+    /// The level by the distance to another agent; not together with the changes above.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rule: Option<LevelRule>,
+}
+
+impl Script {
+    /// What is switched on at a level: what the choice says, or else the level's own phenomena and those that the script
+    /// feeds (`wind-shear`, `turbulence`, `process-noise`).
+    pub fn phenomena(&self, choice: &LevelChoice) -> PhenomenonSet {
+        let fed = self
+            .sources()
+            .into_iter()
+            .filter(|s| s.is_there)
+            .map(|s| s.phenomenon);
+        match &choice.phenomena {
+            Some(phenomena) => phenomena.clone(),
+            None => fed.fold(choice.level.phenomena(), PhenomenonSet::with),
+        }
+    }
+
+    /// All choices of level that the script may make.
+    pub(super) fn choices(&self) -> impl Iterator<Item = &LevelChoice> {
+        let by_rule = self.rule.iter().flat_map(|rule| [&rule.fine, &rule.coarse]);
+        self.level.values().chain(by_rule)
+    }
+
+    fn sources(&self) -> [Source; 3] {
+        let source = |phenomenon, wanted, is_there| Source {
+            phenomenon,
+            wanted,
+            is_there,
+        };
+        [
+            source(Phenomenon::WindShear, "wind.shear", self.wind.shear.is_some()),
+            source(
+                Phenomenon::Turbulence,
+                "wind.turbulence",
+                self.wind.turbulence.is_some(),
+            ),
+            source(
+                Phenomenon::ProcessNoise,
+                "process_noise",
+                self.process_noise.is_some(),
+            ),
+        ]
+    }
+
+    /// Checks its own numbers.
+    fn check_air(&self) -> Result<(), AirError> {
+        for wind in self.wind_m_s.values() {
+            check_speed((Vector3::from(*wind) + Vector3::from(self.wind.constant_m_s)).norm())?;
+        }
+        self.wind.check()?;
+        self.process_noise.map_or(Ok(()), |noise| noise.check())
+    }
+
+    /// Checks that what is switched on is fed, and has a ground below it.
+    fn check_phenomena(&self, phenomena: &PhenomenonSet, altitude_m: f64) -> Result<(), AirError> {
+        if let Some(missing) = self
+            .sources()
+            .into_iter()
+            .find(|s| !s.is_there && phenomena.contains(s.phenomenon))
+        {
+            return Err(AirError::NoSource {
+                phenomenon: missing.phenomenon,
+                wanted: missing.wanted,
+            });
+        }
+        let grounded = [
+            Phenomenon::GroundEffect,
+            Phenomenon::WindShear,
+            Phenomenon::Turbulence,
+        ];
+        match grounded.into_iter().find(|p| phenomena.contains(*p)) {
+            Some(phenomenon) if altitude_m < 0.0 => Err(AirError::BelowGround {
+                altitude_m,
+                phenomenon,
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What feeds a phenomenon from outside the model.
+struct Source {
+    phenomenon: Phenomenon,
+    wanted: &'static str,
+    is_there: bool,
 }
 
 /// Everything that makes a quadrotor agent.
@@ -124,7 +220,30 @@ impl Setup {
             source,
         };
         self.script.wind_m_s.check_finite().map_err(script)?;
-        self.script.command_offset.check_finite().map_err(script)
+        self.script.command_offset.check_finite().map_err(script)?;
+        let air = |source| QuadrotorError::Air {
+            name: self.name.clone(),
+            source,
+        };
+        self.script.check_air().map_err(air)?;
+        for choice in std::iter::once(&self.level).chain(self.script.choices()) {
+            let phenomena = self.script.phenomena(choice);
+            self.script.check_phenomena(&phenomena, -z).map_err(air)?;
+        }
+        self.check_rule()
+    }
+
+    fn check_rule(&self) -> Result<(), QuadrotorError> {
+        let name = || self.name.clone();
+        match &self.script.rule {
+            Some(_) if self.script.level.values().next().is_some() => {
+                Err(QuadrotorError::TwoMasters { name: name() })
+            }
+            Some(rule) => rule
+                .check()
+                .map_err(|source| QuadrotorError::Rule { name: name(), source }),
+            None => Ok(()),
+        }
     }
 
     /// Where it begins in W, m.
@@ -159,6 +278,30 @@ pub enum QuadrotorError {
         name: String,
         /// The number.
         value: f64,
+    },
+    /// Air or noise that can't be.
+    #[error("quadrotor \"{name}\": {source}")]
+    Air {
+        /// The agent.
+        name: String,
+        /// Why.
+        source: AirError,
+    },
+    /// A rule that can't be.
+    #[error("quadrotor \"{name}\": {source}")]
+    Rule {
+        /// The agent.
+        name: String,
+        /// Why.
+        source: RuleError,
+    },
+    /// Levels by time and by distance at once.
+    #[error(
+        "quadrotor \"{name}\": its level is to change at given times and by a rule of distance: keep one of script.level and script.rule"
+    )]
+    TwoMasters {
+        /// The agent.
+        name: String,
     },
     /// A number of the script that isn't finite.
     #[error("quadrotor \"{name}\": {source}")]

@@ -1,8 +1,10 @@
 //! The engine's laws and its answers to bad input, one module per subject.
 
 mod agreement;
+mod air;
 mod bad_input;
 mod convergence;
+mod dynamic_resolution;
 mod ets_agent;
 mod laws;
 mod levels;

@@ -24,6 +24,7 @@ mod calibration;
 mod rotation;
 mod signal;
 mod thrust;
+mod together;
 mod vehicle;
 mod yaw;
 
@@ -32,7 +33,8 @@ pub use rotation::{
     Axis, InertiaFit, RotationModel, SensorDelay, identify_inertia, inertia_by_moment_regression,
 };
 pub use signal::Comparison;
-pub use thrust::{ThrustFit, ThrustSettings, identify_thrust};
+pub use thrust::{ThrustFit, ThrustLine, ThrustSettings, identify_thrust};
+pub use together::{ThrustAndInertia, Window, identify_thrust_and_inertia};
 pub use vehicle::{CrazyflieIdentification, FlightTests, Part, Unseen, identify_crazyflie, vehicle_file};
 pub use yaw::{YawFit, identify_yaw};
 

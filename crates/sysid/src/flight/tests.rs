@@ -152,6 +152,56 @@ fn exact_a_simulated_vehicle_is_recovered() {
     close(found.yaw.inertia_for(TORQUE).value, INERTIA[2], 0.02, "I_zz");
 }
 
+/// The closed form of the line is a regression's through many points of the same curve, and its errors are those of a
+/// central difference through the covariance.
+#[test]
+fn exact_the_line_through_the_curve_is_the_regressions() {
+    use crate::regression::{Row, linear};
+    let log = flight(1, 0.0, 0.1);
+    let settings = ThrustSettings {
+        mass: MASS,
+        lag_on: LagOn::Thrust,
+        delay_s: BEHIND as f64 * 1e-3,
+    };
+    let fit = identify_thrust(&log, &(2.0..20.0), settings).unwrap();
+    let (a, b) = (0.45, 0.8);
+    let line_of = |[k0, k1, k2, _]: [f64; 4]| {
+        let rows: Vec<Row<2>> = (0..10_000)
+            .map(|k| a + (b - a) * (f64::from(k) + 0.5) / 1e4)
+            .map(|c| Row {
+                regressors: [1.0, c],
+                y: k0 + (k1 + k2 * c) * c,
+            })
+            .collect();
+        let [intercept, gain] = linear(&rows).unwrap().values();
+        [gain, -intercept / gain]
+    };
+    let line = fit.line(&(a..=b));
+    let [gain, zero] = line_of(fit.fit.values());
+    // The midpoint rule over 10⁴ points is off by their number's square.
+    assert!((line.gain.value / gain - 1.0).abs() < 1e-7, "{line:?} {gain}");
+    assert!((line.zero.value / zero - 1.0).abs() < 1e-7, "{line:?} {zero}");
+    let step = 1e-5;
+    let slopes: [[f64; 2]; 4] = std::array::from_fn(|i| {
+        let (mut up, mut down) = (fit.fit.values(), fit.fit.values());
+        up[i] += step;
+        down[i] -= step;
+        let (up, down) = (line_of(up), line_of(down));
+        [0, 1].map(|k| (up[k] - down[k]) / (2.0 * step))
+    });
+    for (k, error) in [line.gain.standard_error, line.zero.standard_error]
+        .into_iter()
+        .enumerate()
+    {
+        let expected = fit.fit.propagated(0.0, &slopes.map(|s| s[k])).standard_error;
+        // The difference's own error: its step over the gain of 0.15 N, squared.
+        assert!(
+            (error / expected - 1.0).abs() < 1e-4,
+            "{k}: {error} instead of {expected}"
+        );
+    }
+}
+
 #[test]
 fn prop_the_intervals_of_inertia_contain_the_truth() {
     // White noise of the gyroscope ten times the real one's (0.1 deg/s), 60 flights: of a true 95 % interval 57 ± 1.7 contain

@@ -6,7 +6,7 @@ use crate::estimate::{Estimate, Fit};
 use crate::recorded::InertialLog;
 use crate::regression::{Predictor, nonlinear, slopes};
 use quad_math::{Real, constant};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 /// Length of the bins over which thrust is averaged, s: a seventh of the lag that is sought.
 const BIN_S: f64 = 0.01;
@@ -58,6 +58,23 @@ impl ThrustFit {
         )
     }
 
+    /// The least-squares line through the curve over a range of commands from a to b, evenly weighted:
+    /// `K = k_1 + k_2 (a + b)`, intercept `k_0 − k_2 (a² + 4 a b + b²)/6`, zero `c_0 = −intercept/K`.
+    pub fn line(&self, commands: &RangeInclusive<f64>) -> ThrustLine {
+        let (a, b) = (*commands.start(), *commands.end());
+        let [k0, k1, k2, _] = self.fit.values();
+        let (sum, bend) = (a + b, (a * a + 4.0 * a * b + b * b) / 6.0);
+        let gain = k1 + k2 * sum;
+        let zero = (k2 * bend - k0) / gain;
+        ThrustLine {
+            gain: self.fit.propagated(gain, &[0.0, 1.0, sum, 0.0]),
+            zero: self.fit.propagated(
+                zero,
+                &[-1.0 / gain, -zero / gain, (bend - zero * sum) / gain, 0.0],
+            ),
+        }
+    }
+
     /// Total thrust, N, measured and predicted over another window or flight.
     ///
     /// # Errors
@@ -70,6 +87,15 @@ impl ThrustFit {
             predicted: model.predict(&self.fit.values()),
         })
     }
+}
+
+/// A line through a thrust curve: `T = K (c − c_0)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThrustLine {
+    /// Gain K of one rotor, N per unit of command.
+    pub gain: Estimate,
+    /// Zero-thrust command `c_0`.
+    pub zero: Estimate,
 }
 
 /// Identifies thrust curve and lag over a window, s, of a flight.

@@ -1,9 +1,10 @@
 //! The whole identification of a Crazyflie from three flights, and its result as a vehicle file.
 
-use super::rotation::{Axis, InertiaFit, RotationModel, SensorDelay, identify_inertia};
-use super::thrust::{ThrustFit, ThrustSettings, identify_thrust};
+use super::rotation::InertiaFit;
+use super::thrust::ThrustFit;
+use super::together::{Window, identify_thrust_and_inertia};
 use super::yaw::{YawFit, identify_yaw};
-use super::{FlightError, LagOn, ThrustCurve};
+use super::{FlightError, ThrustCurve};
 use crate::estimate::Estimate;
 use crate::recorded::InertialLog;
 use crate::regression::{Row, linear};
@@ -14,14 +15,6 @@ use quad_dynamics::vehicle::file::{Number, PolynomialRotorFile, RotorDynamicsFil
 use quad_dynamics::vehicle::{self, VehicleFile};
 use std::ops::{Range, RangeInclusive};
 
-/// Lengths of the bins for roll, pitch and yaw, s: an increment of a rate over them stands well above the gyroscope's noise.
-const BIN_S: f64 = 0.02;
-/// Slowest motion used for roll and pitch, s: above 2 Hz the coherence of moment and angular acceleration is 0.99, at
-/// 1 Hz it has fallen below 0.9.
-const SLOWEST_S: f64 = 0.5;
-/// Rounds of thrust and rotation taking turns, and the change of the common delay, s, that ends them.
-const ROUNDS: usize = 20;
-const DELAY_TOLERANCE_S: f64 = 1e-5;
 /// Points of a curve that lines and cubics are drawn through.
 const CURVE_POINTS: u32 = 101;
 /// Duties over which the cubic of level 5 is fitted, the range of the crazyflie's own file.
@@ -36,6 +29,15 @@ pub struct Part<'a> {
     pub fit: Range<f64>,
     /// Window that the fit does not see.
     pub rest: Range<f64>,
+}
+
+impl<'a> Part<'a> {
+    fn window(&self) -> Window<'a> {
+        Window {
+            log: self.log,
+            span: self.fit.clone(),
+        }
+    }
 }
 
 /// Three flights for an identification.
@@ -79,56 +81,19 @@ pub struct Unseen {
 
 /// Identifies thrust, roll, pitch and yaw; `vehicle` gives the rotors' places and spins, nothing else.
 ///
-/// The accelerometer's filter delays the thrust as the gyroscope's delays the rates, and the rates tell δ far better. So
-/// both take turns until δ stays: thrust with the last δ gives curve and lag, roll and pitch with these give the next δ.
-///
 /// # Errors
 /// Those of the single identifications.
 pub fn identify_crazyflie(
     tests: &FlightTests<'_>,
     vehicle: &Vehicle,
 ) -> Result<CrazyflieIdentification, FlightError> {
-    let mut delay_s = 0.0;
-    let mut found = None;
-    for _ in 0..ROUNDS {
-        let settings = ThrustSettings {
-            mass: tests.mass,
-            lag_on: LagOn::Thrust,
-            delay_s,
-        };
-        let thrust = identify_thrust(tests.thrust.log, &tests.thrust.fit, settings)?;
-        let model = RotationModel {
-            curve: thrust.curve(),
-            lag_on: LagOn::Thrust,
-            lag_s: thrust.lag().value,
-            delay: SensorDelay::Identified,
-            bin_s: BIN_S,
-            slowest_s: SLOWEST_S,
-        };
-        let part = &tests.roll_pitch;
-        let roll = identify_inertia(Axis::Roll, &model, vehicle, part.log, &part.fit)?;
-        let pitch = identify_inertia(Axis::Pitch, &model, vehicle, part.log, &part.fit)?;
-        let next = 0.5 * (roll.delay.value + pitch.delay.value);
-        let change = next - delay_s;
-        found = Some((thrust, model, roll, pitch));
-        if change.abs() < DELAY_TOLERANCE_S {
-            break;
-        }
-        delay_s = next;
-    }
-    let (thrust, model, roll, pitch) = found.ok_or(FlightError::NotPhysical {
-        what: "delay, s,",
-        value: delay_s,
-    })?;
-    let model = RotationModel {
-        delay: SensorDelay::Known(delay_s),
-        ..model
-    };
-    let yaw = identify_yaw(&model, vehicle, tests.yaw.log, &tests.yaw.fit)?;
+    let (up_down, moved) = (tests.thrust.window(), tests.roll_pitch.window());
+    let found = identify_thrust_and_inertia(&up_down, &moved, tests.mass, vehicle)?;
+    let yaw = identify_yaw(&found.rotation_model(), vehicle, tests.yaw.log, &tests.yaw.fit)?;
     Ok(CrazyflieIdentification {
-        thrust,
-        roll,
-        pitch,
+        thrust: found.thrust,
+        roll: found.roll,
+        pitch: found.pitch,
         yaw,
     })
 }

@@ -4,6 +4,7 @@
 //! gravity over the mass; motion capture gives the velocity along body axes. Still air. The controller acts every
 //! millisecond (RK4 between), and sees the true state: what the sensors do to a controller is another subject.
 
+use super::shaking::{Shaken, excitation};
 use super::{Generator, Sensor, SensorError};
 use nalgebra::Vector3;
 use quad_dynamics::{
@@ -72,6 +73,9 @@ pub struct FlightTest {
     pub sides: u32,
     /// Milliseconds between samples.
     pub sample_every_ms: u32,
+    /// Amplitude of each of the four tones (0.4 to 5.3 Hz) added to every rotor's duty, for flights that are to show the
+    /// rotors' lag and the moments of inertia; 0 for none.
+    pub excitation: f64,
 }
 
 impl Default for FlightTest {
@@ -104,6 +108,7 @@ impl Default for FlightTest {
             side_s: 3.0,
             sides: 8,
             sample_every_ms: 20,
+            excitation: 0.0,
         }
     }
 }
@@ -198,6 +203,10 @@ impl FlightTest {
                 vehicle.environment.gravity,
                 TiltLaw::Exact,
             );
+            let controller = Shaken {
+                controller: &controller,
+                added: excitation(self.excitation, time_s),
+            };
             now = closed_loop_step(&model, &controller, &now, &reference, &Vector3::zeros(), STEP_S);
         }
         Ok(samples)

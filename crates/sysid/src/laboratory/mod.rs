@@ -7,6 +7,7 @@ pub mod flights;
 pub mod load_cells;
 pub mod pendulum;
 mod sensor;
+mod shaking;
 pub mod supports;
 pub mod thrust_stand;
 

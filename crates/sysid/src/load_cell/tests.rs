@@ -188,7 +188,7 @@ fn exact_refusals() {
     ));
     assert!(matches!(
         changed(|s| s.iter_mut().for_each(|s| s.reading_v = 1.0)),
-        Err(LoadCellError::NoResponse { .. })
+        Err(LoadCellError::Fit(FitError::ConstantData { value: 1.0, .. }))
     ));
     let found = calibrated(&cell, 0);
     assert_eq!(found.load(&[]), Err(LoadCellError::NoReading));

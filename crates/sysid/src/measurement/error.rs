@@ -189,7 +189,7 @@ pub enum Remark {
         /// Line after the longest.
         line: u64,
     },
-    /// A column repeats its largest or smallest value for many rows: a saturated or stuck sensor, or a limited input.
+    /// A measured column repeats its largest or smallest value for many rows: a saturated or stuck sensor.
     #[error("column \"{column}\" sits at its extreme {value} {unit} for {rows} rows up to line {line}")]
     Saturated {
         /// The column.

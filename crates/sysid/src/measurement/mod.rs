@@ -10,7 +10,7 @@
 //! says that there are no names. Numbers as Rust reads them; `NaN`, infinities and empty cells are errors.
 //!
 //! What can't be right is a [`ReadError`] with its line number. What may be right but should be known is a [`Remark`]:
-//! gaps in time, a column that sits at an extreme for long (saturated or stuck), a column that never changes.
+//! gaps in time, a measured column that sits at an extreme for long (saturated or stuck), a column that never changes.
 //!
 //! ```
 //! use sysid::measurement::{Column, Layout, read};
@@ -38,6 +38,15 @@ use std::ops::ControlFlow;
 /// Rows that [`read`] collects unless told otherwise: with ten columns of eight bytes and a line number each, half a gigabyte at most.
 pub const DEFAULT_ROW_LIMIT: usize = 6_000_000;
 
+/// Where a column's numbers come from, which decides what is suspicious about them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Signal {
+    /// A sensor: one that repeats its extreme for long is saturated or stuck.
+    Measured,
+    /// The experimenter or a controller (a duty, a set point, a hung weight): it may hold any value for any time.
+    Commanded,
+}
+
 /// A column that a file must have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
@@ -49,16 +58,27 @@ pub struct Column {
     pub minimum: f64,
     /// Largest value that is physically possible, in this unit.
     pub maximum: f64,
+    /// Whether it was measured or commanded.
+    pub signal: Signal,
 }
 
 impl Column {
-    /// A column with its name, unit and range.
+    /// A measured column with its name, unit and range.
     pub const fn new(name: &'static str, unit: &'static str, minimum: f64, maximum: f64) -> Self {
         Self {
             name,
             unit,
             minimum,
             maximum,
+            signal: Signal::Measured,
+        }
+    }
+
+    /// A commanded column with its name, unit and range.
+    pub const fn commanded(name: &'static str, unit: &'static str, minimum: f64, maximum: f64) -> Self {
+        Self {
+            signal: Signal::Commanded,
+            ..Self::new(name, unit, minimum, maximum)
         }
     }
 }

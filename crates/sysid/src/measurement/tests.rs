@@ -201,6 +201,32 @@ fn exact_a_gigabyte_without_a_line_end_is_refused_after_one_line() {
 }
 
 #[test]
+fn exact_only_a_measured_column_is_called_saturated() {
+    // A duty of two values holds both for long, and so does a sensor at the end of its range.
+    let mut text = "duty,thrust_n\n".to_owned();
+    for k in 0..200 {
+        let high = k / 50 % 2 == 1;
+        text += if high { "0.08,4\n" } else { "0.07,3\n" };
+    }
+    let saturated = |columns: &[Column]| -> Vec<&'static str> {
+        let remarks = read(text.as_bytes(), &Layout::table(columns)).unwrap().remarks;
+        remarks
+            .iter()
+            .filter_map(|r| match r {
+                Remark::Saturated { column, .. } => Some(*column),
+                _ => None,
+            })
+            .collect()
+    };
+    let thrust = Column::new("thrust_n", "N", 0.0, 9.0);
+    let commanded = [Column::commanded("duty", "1", 0.0, 1.0), thrust];
+    let measured = [Column::new("duty", "1", 0.0, 1.0), thrust];
+    // Both ends of each.
+    assert_eq!(saturated(&commanded), ["thrust_n"; 2]);
+    assert_eq!(saturated(&measured), ["duty", "duty", "thrust_n", "thrust_n"]);
+}
+
+#[test]
 fn exact_a_gigabyte_of_rows_stops_at_the_limit_and_streams_without_holding_it() {
     let columns = [Column::new("x", "m", 0.0, 9.0)];
     let layout = Layout {

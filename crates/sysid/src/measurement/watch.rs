@@ -1,6 +1,6 @@
 //! What is noticed row by row without holding the rows: time, gaps, stretches at an extreme, constants.
 
-use super::{Column, Layout, ReadError, Remark};
+use super::{Column, Layout, ReadError, Remark, Signal};
 
 /// Rows at the same extreme from which a column counts as saturated or stuck. Noise of one digit repeats a value a few
 /// times by chance; a repeat of twenty is one in 10⁶ even where every other sample sits at the extreme.
@@ -125,6 +125,9 @@ impl<'a> Watch<'a> {
                         unit: column.unit,
                     });
                 }
+                continue;
+            }
+            if column.signal == Signal::Commanded {
                 continue;
             }
             for stretch in [low, high] {

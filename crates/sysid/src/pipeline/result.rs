@@ -256,6 +256,7 @@ fn mark(file: &mut VehicleFile) {
         motor,
         battery,
         drag,
+        arms,
         // Identified as whole groups.
         rotor_dynamics: _,
         polynomial_rotor: _,
@@ -299,6 +300,13 @@ fn mark(file: &mut VehicleFile) {
     }
     if let Some(d) = drag {
         texts.extend([&mut d.quadratic_n_s2_m2.source, &mut d.rate_damping_n_m_s.source]);
+    }
+    if let Some(a) = arms {
+        texts.extend([
+            &mut a.width_m.source,
+            &mut a.drag_coefficient.source,
+            &mut a.drop_m.source,
+        ]);
     }
     for text in texts {
         *text = format!("not identified, taken from the nominal file: {text}");

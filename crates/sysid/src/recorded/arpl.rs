@@ -25,10 +25,10 @@ const COLUMNS: [Column; 11] = [
     Column::new("gyro_x[deg/s]", "deg/s", -2000.0, 2000.0),
     Column::new("gyro_y[deg/s]", "deg/s", -2000.0, 2000.0),
     Column::new("gyro_z[deg/s]", "deg/s", -2000.0, 2000.0),
-    Column::new("m1[0..65535]", "of 65535", 0.0, FULL_COMMAND),
-    Column::new("m2", "of 65535", 0.0, FULL_COMMAND),
-    Column::new("m3", "of 65535", 0.0, FULL_COMMAND),
-    Column::new("m4", "of 65535", 0.0, FULL_COMMAND),
+    Column::commanded("m1[0..65535]", "of 65535", 0.0, FULL_COMMAND),
+    Column::commanded("m2", "of 65535", 0.0, FULL_COMMAND),
+    Column::commanded("m3", "of 65535", 0.0, FULL_COMMAND),
+    Column::commanded("m4", "of 65535", 0.0, FULL_COMMAND),
 ];
 
 /// Two lost samples at 1 kHz.

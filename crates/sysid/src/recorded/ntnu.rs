@@ -12,7 +12,7 @@ use std::io::Read;
 
 const STEPS: [Column; 3] = [
     Column::new("time", "s", 0.0, 1e6),
-    Column::new("set point", "(not stated)", -1e5, 1e5),
+    Column::commanded("set point", "(not stated)", -1e5, 1e5),
     Column::new("speed", "(not stated)", -1e5, 1e5),
 ];
 const TABLE: [Column; 3] = [

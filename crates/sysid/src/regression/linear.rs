@@ -25,7 +25,8 @@ pub struct Row<const N: usize> {
 /// ```
 ///
 /// # Errors
-/// Too few rows, rows that don't determine the parameters, numbers that are not finite.
+/// Too few rows, rows that don't determine the parameters, numbers that are not finite, data that are all equal while the
+/// regressors change (one unknown with a constant regressor is a mean, of which equal data are no error).
 pub fn linear<const N: usize>(rows: &[Row<N>]) -> Result<Fit<N>, FitError> {
     if let Some(index) = rows
         .iter()
@@ -36,11 +37,27 @@ pub fn linear<const N: usize>(rows: &[Row<N>]) -> Result<Fit<N>, FitError> {
     let design = Mat::from_fn(rows.len(), N, |i, j| rows[i].regressors[j]);
     let y: Vec<f64> = rows.iter().map(|row| row.y).collect();
     let solution = solve::<N>(&design, &y)?;
+    refuse_constant(rows)?;
     let residuals: Vec<f64> = rows
         .iter()
         .map(|row| row.y - SVector::from(row.regressors).dot(&solution.parameters))
         .collect();
     Ok(fit(solution, residuals, &y, None))
+}
+
+/// Refuses data that do not answer to regressors that change.
+fn refuse_constant<const N: usize>(rows: &[Row<N>]) -> Result<(), FitError> {
+    let Some(first) = rows.first() else {
+        return Ok(());
+    };
+    let driven = rows.iter().any(|row| row.regressors != first.regressors);
+    if driven && rows.iter().all(|row| row.y == first.y) {
+        return Err(FitError::ConstantData {
+            points: rows.len(),
+            value: first.y,
+        });
+    }
+    Ok(())
 }
 
 /// The least-squares solution of `X p = y` and what else the decomposition tells.

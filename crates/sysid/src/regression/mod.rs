@@ -45,6 +45,16 @@ pub enum FitError {
         /// Place in the order of the data.
         index: usize,
     },
+    /// All data are equal though the regressors change: a stuck sensor. A fit would give rounding with an interval of rounding.
+    #[error(
+        "all {points} data are {value} while the input changes: the sensor is stuck or not connected, and nothing follows from it"
+    )]
+    ConstantData {
+        /// How many data there are.
+        points: usize,
+        /// What they all are.
+        value: f64,
+    },
     /// The model gave NaN or infinity at the start of the iteration.
     #[error("the model has no finite prediction at the start {start:?}: choose another")]
     NoStart {

@@ -80,6 +80,38 @@ fn exact_refusals() {
     );
 }
 
+/// A stuck sensor: without the refusal the slope of these is 1e-17 with an interval as small that leaves zero out.
+#[test]
+fn exact_equal_data_under_a_changing_input_are_refused_and_a_mean_of_equal_data_is_not() {
+    let stuck: Vec<Row<2>> = (0..9)
+        .map(|i| Row {
+            regressors: [1.0, 0.1 * f64::from(i)],
+            y: 0.1,
+        })
+        .collect();
+    assert_eq!(
+        linear(&stuck),
+        Err(FitError::ConstantData {
+            points: 9,
+            value: 0.1
+        })
+    );
+    // One datum that answers is enough to have a scatter.
+    let mut alive = stuck;
+    alive[4].y = 0.2;
+    assert!(linear(&alive).unwrap().goodness.standard_deviation > 0.01);
+    let equal = [Row {
+        regressors: [1.0],
+        y: 0.1,
+    }; 9];
+    // Nine roundings of a sum.
+    assert_relative_eq!(
+        linear(&equal).unwrap().parameters[0].value,
+        0.1,
+        max_relative = 1e-15
+    );
+}
+
 /// `y = √a`, without a value below zero.
 struct Root;
 

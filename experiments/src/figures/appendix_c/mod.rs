@@ -2,7 +2,9 @@
 
 use crate::item::Item;
 
+mod figure_c_1;
 mod figure_c_2;
+mod rig;
 
 /// The items of this appendix.
-pub(super) const ITEMS: &[Item] = &[figure_c_2::ITEM];
+pub(super) const ITEMS: &[Item] = &[figure_c_1::ITEM, figure_c_2::ITEM];

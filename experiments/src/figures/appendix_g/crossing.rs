@@ -23,7 +23,11 @@ fn waypoints() -> [Waypoint; 2] {
     })
 }
 
-fn controller(level: Level, vehicle: &Vehicle) -> Result<(AnyController<f64>, TiltLaw), ItemError> {
+/// The inversion that is paired with a level, and how it takes tilt.
+pub(in crate::figures) fn controller(
+    level: Level,
+    vehicle: &Vehicle,
+) -> Result<(AnyController<f64>, TiltLaw), ItemError> {
     let settings = Settings::default();
     Ok(match level {
         Level::One => (

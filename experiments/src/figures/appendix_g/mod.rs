@@ -2,7 +2,7 @@
 
 use crate::item::Item;
 
-mod crossing;
+pub(super) mod crossing;
 mod table_g_1;
 mod table_g_2;
 mod table_g_4;

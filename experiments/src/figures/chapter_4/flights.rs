@@ -134,3 +134,18 @@ impl Study {
         found.ok_or_else(|| ItemError::new(format!("{level}, {prediction} was not run")))
     }
 }
+
+/// Agreement of levels 2 to 5 with the flight that nothing was fitted on, one-step: one less the mean of Theil's coefficients of the six
+/// accelerations.
+pub(crate) fn agreement_with_a_recorded_flight(context: &Context) -> Result<Vec<(Level, f64)>, ItemError> {
+    let study = study(context, UNSEEN)?;
+    let mean = |level| -> Result<(Level, f64), ItemError> {
+        let agreement = &study.run(level, Prediction::OneStep)?.agreement;
+        let axes = agreement
+            .acceleration
+            .iter()
+            .chain(&agreement.angular_acceleration);
+        Ok((level, 1.0 - axes.map(|axis| axis.theil).sum::<f64>() / 6.0))
+    };
+    LEVELS.into_iter().map(mean).collect()
+}

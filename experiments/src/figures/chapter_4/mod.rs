@@ -34,6 +34,8 @@ mod table_4_4;
 mod table_4_5;
 mod table_4_6;
 
+pub(crate) use flights::agreement_with_a_recorded_flight;
+
 /// The items of this chapter.
 pub(super) const ITEMS: &[Item] = &[
     figure_4_2::ITEM,

@@ -2,8 +2,15 @@
 
 use crate::item::Item;
 
+mod attribution;
 mod figure_5_1;
 mod figure_5_2;
+mod table_5_1;
 
 /// The items of this chapter.
-pub(super) const ITEMS: &[Item] = &[figure_5_1::ITEM, figure_5_2::ITEM];
+pub(super) const ITEMS: &[Item] = &[
+    figure_5_1::ITEM,
+    figure_5_2::ITEM,
+    table_5_1::ITEM,
+    attribution::ITEM,
+];

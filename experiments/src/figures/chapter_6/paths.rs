@@ -38,7 +38,7 @@ pub(super) const VIEW: View = View {
 const DURATION_S: f64 = 14.0;
 
 /// The scenario of a controller that follows the reference.
-pub(super) fn scenario(law: Law) -> Scenario {
+pub(crate) fn scenario(law: Law) -> Scenario {
     let task = Task::Follow {
         waypoints: waypoints(),
     };

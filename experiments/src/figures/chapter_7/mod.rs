@@ -7,6 +7,7 @@ mod figure_7_2;
 mod figure_7_3;
 mod figure_7_5;
 mod figure_7_6;
+mod figure_7_7;
 mod growth;
 mod overfill;
 mod tracking;
@@ -18,4 +19,5 @@ pub(super) const ITEMS: &[Item] = &[
     figure_7_3::ITEM,
     figure_7_5::ITEM,
     figure_7_6::ITEM,
+    figure_7_7::ITEM,
 ];

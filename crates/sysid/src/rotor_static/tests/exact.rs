@@ -79,7 +79,7 @@ fn exact_intercept_ratio_by_hand() {
             duty: i as f64,
             battery_voltage_v: 11.1,
             thrust_n,
-            torque_n_m: 0.0,
+            torque_n_m: 0.016 * thrust_n,
             speed_rad_s: 1.0,
         })
         .collect();

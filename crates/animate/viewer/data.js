@@ -1,0 +1,3 @@
+// What the page was told.
+
+const DATA = JSON.parse(document.getElementById('data').textContent);

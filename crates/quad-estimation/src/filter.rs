@@ -1,0 +1,162 @@
+//! What extended and unscented filters have in common.
+
+use crate::belief::{Belief, Innovation};
+use crate::error::{finite, positive};
+use crate::{EstimationError, Process};
+use nalgebra::{DMatrix, DVector};
+
+/// Readings of an instrument, all of one accuracy, at the filter's instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation<I> {
+    /// What was read.
+    pub instrument: I,
+    /// The readings y.
+    pub values: DVector<f64>,
+    /// Standard deviation of each reading's white noise, > 0.
+    pub deviation: f64,
+}
+
+/// A Kalman filter of some kind on a process.
+///
+/// [`Filter::predicted`] and [`Filter::corrected`] are its equations; [`Filter::predict`] and [`Filter::update`] check what
+/// goes in and comes out, and leave the filter as it was where something is wrong.
+pub trait Filter {
+    /// The process it filters.
+    type Process: Process;
+
+    /// The process.
+    fn process(&self) -> &Self::Process;
+
+    /// The process, for evaluating its model.
+    fn process_mut(&mut self) -> &mut Self::Process;
+
+    /// What it believes.
+    fn belief(&self) -> &Belief;
+
+    /// Makes it believe something else, of the same size.
+    fn believe(&mut self, belief: Belief);
+
+    /// The belief one step of h seconds later.
+    ///
+    /// # Errors
+    /// A covariance without Cholesky factor (unscented).
+    fn predicted(
+        &mut self,
+        input: &<Self::Process as Process>::Input,
+        step_s: f64,
+    ) -> Result<Belief, EstimationError>;
+
+    /// The belief after an observation, and what that told; unchanged where the NIS is beyond the gate.
+    ///
+    /// # Errors
+    /// A covariance without Cholesky factor.
+    fn corrected(
+        &mut self,
+        input: &<Self::Process as Process>::Input,
+        observation: &Observation<<Self::Process as Process>::Instrument>,
+        gate: Option<f64>,
+    ) -> Result<(Belief, Innovation), EstimationError>;
+
+    /// Goes on by a step of h seconds with this input held.
+    ///
+    /// # Errors
+    /// A step that is not positive; a belief that leaves the numbers or loses its covariance, the old
+    /// one being kept.
+    fn predict(
+        &mut self,
+        input: &<Self::Process as Process>::Input,
+        step_s: f64,
+    ) -> Result<(), EstimationError> {
+        if !(step_s.is_finite() && step_s > 0.0) {
+            return Err(EstimationError::BadStep { step_s });
+        }
+        let belief = self.predicted(input, step_s)?;
+        self.take(belief)
+    }
+
+    /// Takes an observation of the present in; `input` is what acts now.
+    ///
+    /// # Errors
+    /// Readings that are not finite or of the wrong number, a deviation that is not positive; a belief that leaves the
+    /// numbers or loses its covariance, the old one being kept.
+    fn update(
+        &mut self,
+        input: &<Self::Process as Process>::Input,
+        observation: &Observation<<Self::Process as Process>::Instrument>,
+        gate: Option<f64>,
+    ) -> Result<Innovation, EstimationError> {
+        positive("a measurement's standard deviation", observation.deviation)?;
+        let (expected, found) = (
+            self.process().readings(observation.instrument),
+            observation.values.len(),
+        );
+        if expected != found {
+            let what = "a measurement of this instrument";
+            return Err(EstimationError::Length {
+                what,
+                expected,
+                found,
+            });
+        }
+        for &value in observation.values.iter() {
+            finite("a reading", value)?;
+        }
+        let (belief, innovation) = self.corrected(input, observation, gate)?;
+        self.take(belief)?;
+        Ok(innovation)
+    }
+
+    /// Believes it if its numbers are numbers and its covariance is one.
+    ///
+    /// # Errors
+    /// [`EstimationError::Diverged`], [`EstimationError::NotPositiveDefinite`].
+    fn take(&mut self, belief: Belief) -> Result<(), EstimationError> {
+        if !belief.is_finite() {
+            return Err(EstimationError::Diverged);
+        }
+        if belief.covariance.clone().cholesky().is_none() {
+            return Err(EstimationError::NotPositiveDefinite);
+        }
+        self.believe(belief);
+        Ok(())
+    }
+}
+
+/// A belief of the process' size.
+pub(crate) fn checked<P: Process>(process: &P, belief: Belief) -> Result<Belief, EstimationError> {
+    let sizes = [
+        ("a belief's mean", process.state_len(), belief.mean.len()),
+        (
+            "a covariance's row",
+            process.error_len(),
+            belief.covariance.nrows(),
+        ),
+    ];
+    for (what, expected, found) in sizes {
+        if expected != found {
+            return Err(EstimationError::Length {
+                what,
+                expected,
+                found,
+            });
+        }
+    }
+    Belief::new(belief.mean, belief.covariance)
+}
+
+/// `S⁻¹` and `νᵀ S⁻¹ ν`.
+pub(crate) struct Whitened {
+    pub(crate) inverse: DMatrix<f64>,
+    pub(crate) nis: f64,
+}
+
+pub(crate) fn normalised_square(
+    s: &DMatrix<f64>,
+    residual: &DVector<f64>,
+) -> Result<Whitened, EstimationError> {
+    let factor = s.clone().cholesky().ok_or(EstimationError::NotPositiveDefinite)?;
+    Ok(Whitened {
+        nis: residual.dot(&factor.solve(residual)),
+        inverse: factor.inverse(),
+    })
+}

@@ -1,0 +1,287 @@
+//! The air that a quadrotor flies in, and the noise that acts on it: what its models' phenomena are fed with.
+//!
+//! ```text
+//! wind(t, h) = gain(h) (constant + steps(t)) + gust      gain 1 where wind-shear is off, gust 0 where turbulence is off
+//! ```
+//!
+//! Velocities of the air in W: a wind of `[-5, 0, 0]` blows to the south and pushes to the south. The gust lies along and across
+//! the horizontal mean wind, to the north in still air; its field is flown through at the airspeed against the mean wind.
+//! Step n draws from stream n of a ChaCha8 generator: a pure function of the seed and the step, so the filters' state
+//! is all that a snapshot needs.
+
+use crate::agent::Moment;
+use crate::schedule::Schedule;
+use nalgebra::Vector3;
+use quad_dynamics::{
+    Dryden, DrydenNoise, DrydenState, Flight, Kick, Phenomenon, PhenomenonSet, ProcessNoise, Shear,
+};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution, StandardNormal};
+use serde::{Deserialize, Serialize};
+
+/// Fastest wind, m/s, that is believed: the strongest gust measured outside a tornado was 113 m/s (Barrow Island, 1996).
+pub const STRONGEST_WIND_M_S: f64 = 120.0;
+
+/// Horizontal mean wind below which there is no direction to speak of, m/s.
+const STILL_M_S: f64 = 1e-6;
+
+/// Marks the streams of the process noise, so that one seed for both makes no twins.
+const PROCESS_NOISE_STREAM: u64 = 1 << 63;
+
+/// The wind about a quadrotor.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Wind {
+    /// Mean wind in W, m/s.
+    pub constant_m_s: [f64; 3],
+    /// Steps: a wind that is added from its time on, m/s in W.
+    pub steps_m_s: Schedule<[f64; 3]>,
+    /// How the mean wind grows with height; the same at all heights unless told. Felt where `wind-shear` is on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear: Option<Shear>,
+    /// Gusts about the mean wind. Felt where `turbulence` is on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turbulence: Option<Turbulence>,
+}
+
+/// Dryden's turbulence at low altitude.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turbulence {
+    /// Wind 20 ft above the ground `W_20`, m/s, which sets the intensity: 7.7 is light, 15 moderate, 23 severe.
+    pub w20_m_s: f64,
+    /// Seed of the gusts.
+    pub seed: u64,
+}
+
+/// White noise on the accelerations. Acts where `process-noise` is on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProcessNoiseSource {
+    /// σ_a, m/s²/√Hz per axis.
+    pub acceleration_m_s2_sqrt_hz: f64,
+    /// σ_α, rad/s²/√Hz per axis.
+    pub angular_acceleration_rad_s2_sqrt_hz: f64,
+    /// Seed of the noise.
+    pub seed: u64,
+}
+
+/// Why a wind or a noise can't be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum AirError {
+    /// A wind that no one has seen.
+    #[error(
+        "a wind of {speed_m_s} m/s: it must be a number up to {STRONGEST_WIND_M_S} m/s (is it in another unit?)"
+    )]
+    TooStrong {
+        /// Its speed, m/s.
+        speed_m_s: f64,
+    },
+    /// A profile that can't be.
+    #[error(transparent)]
+    Shear(#[from] quad_dynamics::ShearError),
+    /// An intensity below zero or not finite.
+    #[error("an intensity of the process noise of {value}: it must be a number, 0 or more")]
+    Intensity {
+        /// The number.
+        value: f64,
+    },
+    /// A phenomenon is switched on that nothing feeds.
+    #[error("{phenomenon} is switched on, but the script has no {wanted}: add it or switch {phenomenon} off")]
+    NoSource {
+        /// The phenomenon.
+        phenomenon: Phenomenon,
+        /// What the script lacks.
+        wanted: &'static str,
+    },
+    /// A start below the ground where a phenomenon needs a height above it.
+    #[error(
+        "it starts at an altitude of {altitude_m} m, below the ground (z of W points down), where {phenomenon} has no meaning"
+    )]
+    BelowGround {
+        /// The altitude, −z, m.
+        altitude_m: f64,
+        /// The phenomenon.
+        phenomenon: Phenomenon,
+    },
+}
+
+impl Wind {
+    /// Whether nothing blows.
+    pub fn is_still(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Mean wind at an instant, ns, at the reference height, m/s in W.
+    pub fn mean(&self, time_ns: u64) -> Vector3<f64> {
+        let step = self.steps_m_s.at(time_ns).copied().unwrap_or_default();
+        Vector3::from(self.constant_m_s) + Vector3::from(step)
+    }
+
+    pub(super) fn check(&self) -> Result<(), AirError> {
+        let constant = Vector3::from(self.constant_m_s);
+        check_speed(constant.norm())?;
+        for step in self.steps_m_s.values() {
+            check_speed((constant + Vector3::from(*step)).norm())?;
+        }
+        if let Some(shear) = &self.shear {
+            shear.check()?;
+        }
+        self.turbulence.map_or(Ok(()), |t| check_speed(t.w20_m_s))
+    }
+}
+
+/// Checks a wind's speed, m/s.
+pub(super) fn check_speed(speed_m_s: f64) -> Result<(), AirError> {
+    if (0.0..=STRONGEST_WIND_M_S).contains(&speed_m_s) {
+        Ok(())
+    } else {
+        Err(AirError::TooStrong { speed_m_s })
+    }
+}
+
+impl ProcessNoiseSource {
+    pub(super) fn check(&self) -> Result<(), AirError> {
+        let intensities = [
+            self.acceleration_m_s2_sqrt_hz,
+            self.angular_acceleration_rad_s2_sqrt_hz,
+        ];
+        match intensities.into_iter().find(|x| !(x.is_finite() && *x >= 0.0)) {
+            Some(value) => Err(AirError::Intensity { value }),
+            None => Ok(()),
+        }
+    }
+
+    /// What acts on the vehicle over the step that begins at this instant.
+    pub(super) fn kick(&self, now: &Moment<'_>) -> Kick<f64> {
+        let mut normals = Normals::of_step(self.seed, PROCESS_NOISE_STREAM | step_number(now));
+        let noise = ProcessNoise {
+            acceleration: self.acceleration_m_s2_sqrt_hz,
+            angular_acceleration: self.angular_acceleration_rad_s2_sqrt_hz,
+        };
+        noise.kick(now.step_s, [normals.vector(), normals.vector()])
+    }
+}
+
+/// The air as it is about one quadrotor: wind, and the state of its gusts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Air {
+    /// State of the shaping filters.
+    pub(super) gusts: DrydenState<f64>,
+}
+
+impl Air {
+    /// The air at the start: turbulence that has gone on for ever.
+    pub(super) fn new(wind: &Wind) -> Self {
+        let seed = wind.turbulence.map_or(0, |t| t.seed);
+        // The last stream before those of the process noise; no run has that many steps.
+        let noise = Normals::of_step(seed, PROCESS_NOISE_STREAM - 1).dryden();
+        Self {
+            gusts: DrydenState::stationary(&noise),
+        }
+    }
+
+    /// Velocity of the air in W, m/s, as a model with these phenomena meets it: `mean` is the wind at the reference height.
+    pub(super) fn velocity(
+        &self,
+        wind: &Wind,
+        mean: Vector3<f64>,
+        flight: &Flight<f64>,
+        on: &PhenomenonSet,
+    ) -> Vector3<f64> {
+        let mean = sheared(wind, mean, flight, on);
+        match wind.turbulence {
+            Some(turbulence) if on.contains(Phenomenon::Turbulence) => {
+                let dryden = Dryden::low_altitude(-flight.position.z, turbulence.w20_m_s);
+                mean + along(&mean, dryden.gust(&self.gusts))
+            }
+            _ => mean,
+        }
+    }
+
+    /// The gusts go on over the step that begins at this instant.
+    pub(super) fn advance(
+        &mut self,
+        wind: &Wind,
+        mean: Vector3<f64>,
+        flight: &Flight<f64>,
+        on: &PhenomenonSet,
+        now: &Moment<'_>,
+    ) {
+        let Some(turbulence) = wind.turbulence else {
+            return;
+        };
+        let airspeed = (flight.velocity - sheared(wind, mean, flight, on)).norm();
+        let dryden = Dryden::low_altitude(-flight.position.z, turbulence.w20_m_s);
+        let noise = Normals::of_step(turbulence.seed, step_number(now)).dryden();
+        self.gusts = dryden.step(&self.gusts, airspeed, now.step_s, &noise);
+    }
+
+    /// What it must remember, as numbers.
+    pub(super) fn memory(&self) -> [f64; 5] {
+        let DrydenState { along, across, down } = self.gusts;
+        [along, across[0], across[1], down[0], down[1]]
+    }
+
+    /// The air that was remembered.
+    pub(super) fn remembered([along, a, b, c, d]: [f64; 5]) -> Self {
+        Self {
+            gusts: DrydenState {
+                along,
+                across: [a, b],
+                down: [c, d],
+            },
+        }
+    }
+}
+
+fn sheared(wind: &Wind, mean: Vector3<f64>, flight: &Flight<f64>, on: &PhenomenonSet) -> Vector3<f64> {
+    match &wind.shear {
+        Some(shear) if on.contains(Phenomenon::WindShear) => mean * shear.gain(-flight.position.z),
+        _ => mean,
+    }
+}
+
+/// A gust along, across to the right of, and below a mean wind, in W.
+fn along(mean: &Vector3<f64>, gust: Vector3<f64>) -> Vector3<f64> {
+    let speed = mean.x.hypot(mean.y);
+    let (c, s) = if speed > STILL_M_S {
+        (mean.x / speed, mean.y / speed)
+    } else {
+        (1.0, 0.0)
+    };
+    Vector3::new(c * gust.x - s * gust.y, s * gust.x + c * gust.y, gust.z)
+}
+
+/// Which of the agent's steps begins at this instant.
+fn step_number(now: &Moment<'_>) -> u64 {
+    now.time_ns / now.step.ns()
+}
+
+/// Standard normal numbers of one step.
+struct Normals(ChaCha8Rng);
+
+impl Normals {
+    fn of_step(seed: u64, stream: u64) -> Self {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        generator.set_stream(stream);
+        Self(generator)
+    }
+
+    fn next(&mut self) -> f64 {
+        StandardNormal.sample(&mut self.0)
+    }
+
+    fn vector(&mut self) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| self.next())
+    }
+
+    fn dryden(&mut self) -> DrydenNoise<f64> {
+        DrydenNoise {
+            along: self.next(),
+            across: [self.next(), self.next()],
+            down: [self.next(), self.next()],
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Why coverage can't be counted.
+
+/// Why coverage can't be counted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CoverageError {
+    /// A length that isn't positive.
+    #[error("{what} must be positive and finite, not {value_m} m")]
+    NonPositiveLength {
+        /// Which.
+        what: &'static str,
+        /// Its value, m.
+        value_m: f64,
+    },
+    /// A field of view that isn't one.
+    #[error("the {which} field of view must lie between 0 and π rad, not {value_rad}")]
+    BadField {
+        /// Horizontal or vertical.
+        which: &'static str,
+        /// Its value, rad.
+        value_rad: f64,
+    },
+    /// Distances in the wrong order.
+    #[error("a camera sees from {near_m} m to {far_m} m: the first must be at least 0 and below the second")]
+    BadRange {
+        /// Smallest distance, m.
+        near_m: f64,
+        /// Greatest distance, m.
+        far_m: f64,
+    },
+    /// A volume that leaves the room.
+    #[error("the volume reaches {reach_m:?} m, outside the room of {room_m:?} m (length, width, height)")]
+    VolumeOutside {
+        /// Its farthest corner, W, m.
+        reach_m: [f64; 3],
+        /// The room, m.
+        room_m: [f64; 3],
+    },
+    /// A camera that isn't in the room.
+    #[error(
+        "camera {index} stands at {position_m:?} m, outside the room of {room_m:?} m (length, width, height)"
+    )]
+    CameraOutside {
+        /// Which, from 0.
+        index: usize,
+        /// Where, W, m.
+        position_m: [f64; 3],
+        /// The room, m.
+        room_m: [f64; 3],
+    },
+    /// A camera that looks nowhere.
+    #[error(
+        "camera {index} looks along azimuth {azimuth_rad} and elevation {elevation_rad} rad: both must be finite"
+    )]
+    NoDirection {
+        /// Which, from 0.
+        index: usize,
+        /// Azimuth, rad.
+        azimuth_rad: f64,
+        /// Elevation, rad.
+        elevation_rad: f64,
+    },
+    /// More grid points than is sensible.
+    #[error("cells of {spacing_m} m divide the volume into {points:.0}, more than {limit}: take larger ones")]
+    TooManyPoints {
+        /// Edge of a cell, m.
+        spacing_m: f64,
+        /// How many there would be.
+        points: f64,
+        /// How many there may be.
+        limit: usize,
+    },
+    /// Nothing asked.
+    #[error("at least one camera must see a marker, not 0")]
+    NobodyNeeded,
+}

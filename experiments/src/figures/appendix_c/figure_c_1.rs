@@ -1,0 +1,206 @@
+//! Figure C.1: coverage of the flight volume by cameras on the walls, before and after optimisation.
+
+use super::rig::{self, Settings};
+use crate::claim::Claim;
+use crate::data::DataTable;
+use crate::drawing::Drawing;
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::plot::figure::Legends;
+use crate::plot::space::View;
+use crate::plot::style::{INK, Look, Marker};
+use crate::plot::{Figure, Panel, Space, series_style};
+use nalgebra::Vector3;
+use sifre::{Optimiser, RandomSearch};
+use sysid::coverage::{Camera, Coverage, Task};
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "C.1",
+    title: "Coverage of the flight volume by motion-capture cameras",
+    description: "Eight cameras of table B.1 on the walls of a room of 10 m by 8 m by 4 m (an assumption), mirrored in four quarters. Inner \
+                  box: the flight volume; dots: parts of it that fewer than three cameras see; pyramids: what a camera sees to \
+                  1.5 m. (a) Every eighth of the walls, 2.5 m up, looking straight across; (b) place, height, pan and tilt \
+                  optimised; (c) part of the volume that at least *n* cameras see.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[ABOVE],
+    make: Make::Draw(draw),
+};
+
+const ABOVE: Claim = Claim::holds("optimised coverage above the initial one");
+
+/// Evaluations of the search, and of the short one.
+const EVALUATIONS: u64 = 6000;
+const EVALUATIONS_QUICK: u64 = 1500;
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let settings = Settings::nominal(if context.quick {
+        EVALUATIONS_QUICK
+    } else {
+        EVALUATIONS
+    });
+    let task = settings.task()?;
+    let room = task.room();
+    let before = rig::cameras(room, &rig::initial(room));
+    let after = rig::cameras(room, &optimised(&task, &settings)?);
+    let (seen_before, seen_after) = (task.coverage(&before)?, task.coverage(&after)?);
+    let figure = Figure::columns(3)
+        .legends(Legends::EachPanel)
+        .panel_size(330.0, 270.0)
+        .panel(picture("first guess", &task, &settings, &before, &seen_before))
+        .panel(picture("optimised", &task, &settings, &after, &seen_after))
+        .panel(shares(&seen_before, &seen_after));
+    Ok(Drawing::picture(figure.draw())
+        .data(share_table(&seen_before, &seen_after))
+        .named_data("cameras", camera_table(&before, &after))
+        .scenario(&settings)?
+        .check(
+            ABOVE,
+            seen_after.fraction > seen_before.fraction,
+            format!(
+                "{:.1} % of the volume is seen by at least three cameras, {:.1} % before",
+                1e2 * seen_after.fraction,
+                1e2 * seen_before.fraction
+            ),
+        ))
+}
+
+fn optimised(task: &Task, settings: &Settings) -> Result<Vec<f64>, ItemError> {
+    let mut search = RandomSearch::new(rig::variables(task.room()), settings.seed, settings.evaluations)?;
+    while let Some(candidate) = search.ask() {
+        let coverage = task.coverage(&rig::cameras(task.room(), &candidate.values))?;
+        search.tell(&candidate, rig::cost(&coverage))?;
+    }
+    let best = search
+        .best()
+        .ok_or_else(|| ItemError::new("the search was told nothing"))?;
+    Ok(best.candidate.values.clone())
+}
+
+/// North, west, up: right-handed, as the eye expects of a box.
+fn pictured(p: &Vector3<f64>) -> [f64; 3] {
+    [p.x, -p.y, -p.z]
+}
+
+/// Depth to which a camera's pyramid is drawn, m.
+const DEPTH_M: f64 = 1.5;
+
+fn picture(
+    caption: &str,
+    task: &Task,
+    settings: &Settings,
+    cameras: &[Camera],
+    coverage: &Coverage,
+) -> Space {
+    let thin = |colour| Look::solid(colour, 0.8);
+    let (accent, missing) = (series_style(0), series_style(1));
+    let room = task.room();
+    let whole = Vector3::new(room.length_m, room.width_m, room.height_m);
+    let middle = Vector3::new(0.0, 0.0, -0.5 * room.height_m);
+    let mut space = Space::new("north, m", "west, m", "height, m")
+        .caption(caption)
+        .equal_aspect()
+        .without_shadows()
+        .view(View {
+            azimuth_deg: -60.0,
+            elevation_deg: 35.0,
+        });
+    for edge in edges(&middle, &whole) {
+        space = space.line("", thin("#9a9a9a"), edge);
+    }
+    for edge in edges(
+        &Vector3::from(settings.volume_centre_m),
+        &Vector3::from(settings.volume_size_m),
+    ) {
+        space = space.line("", thin(INK), edge);
+    }
+    for camera in cameras {
+        let corners = camera.field(task.lens(), DEPTH_M);
+        let base = corners.iter().chain(&corners[..1]).map(pictured);
+        space = space.line("", thin(accent.colour), base);
+        for corner in &corners {
+            space = space.line(
+                "",
+                thin(accent.colour),
+                [pictured(&camera.position_m), pictured(corner)],
+            );
+        }
+    }
+    let unseen = task
+        .points()
+        .iter()
+        .zip(&coverage.seen_by)
+        .filter(|(_, n)| **n < settings.needed);
+    space
+        .markers(
+            "cameras",
+            accent.marked(Marker::Square),
+            cameras.iter().map(|c| pictured(&c.position_m)),
+        )
+        .markers(
+            "seen by fewer than three",
+            Look::solid(missing.colour, 0.6).marked(Marker::Dot),
+            unseen.map(|(p, _)| pictured(p)),
+        )
+}
+
+/// The twelve edges of a box.
+fn edges(centre: &Vector3<f64>, size: &Vector3<f64>) -> Vec<[[f64; 3]; 2]> {
+    let corner = |k: usize| {
+        centre + Vector3::from_fn(|axis, _| if k >> axis & 1 == 1 { 0.5 } else { -0.5 } * size[axis])
+    };
+    (0..8_usize)
+        .flat_map(|k| {
+            (0..3)
+                .filter(move |axis| k >> axis & 1 == 0)
+                .map(move |axis| (k, k | 1 << axis))
+        })
+        .map(|(a, b)| [pictured(&corner(a)), pictured(&corner(b))])
+        .collect()
+}
+
+/// Part of the volume that at least n cameras see, n from 0 to the number of cameras.
+fn share(coverage: &Coverage, n: u32) -> f64 {
+    coverage.seen_by.iter().filter(|seen| **seen >= n).count() as f64 / coverage.seen_by.len() as f64
+}
+
+/// Most cameras shown in (c).
+const MOST: u32 = 8;
+
+fn shares(before: &Coverage, after: &Coverage) -> Panel {
+    let points = |coverage| (1..=MOST).map(move |n| (f64::from(n), 1e2 * share(coverage, n)));
+    Panel::new("Cameras *n*", "Volume seen by at least *n*, %")
+        .caption("sightings")
+        .line("first guess", series_style(2), points(before))
+        .line("optimised", series_style(0), points(after))
+        .vertical(3.0, "needed")
+        .y_range(0.0, 100.0)
+}
+
+fn share_table(before: &Coverage, after: &Coverage) -> DataTable {
+    let numbers: Vec<f64> = (0..=MOST).map(f64::from).collect();
+    let column = |coverage| (0..=MOST).map(|n| share(coverage, n)).collect::<Vec<_>>();
+    DataTable::from_columns(&[
+        ("cameras", &numbers),
+        ("share_before", &column(before)),
+        ("share_after", &column(after)),
+    ])
+}
+
+fn camera_table(before: &[Camera], after: &[Camera]) -> DataTable {
+    let mut table = DataTable::new(["rig", "x_m", "y_m", "z_m", "azimuth_rad", "elevation_rad"]);
+    for (rig, cameras) in [("before", before), ("after", after)] {
+        for c in cameras {
+            let p = c.position_m;
+            table.push([
+                rig.into(),
+                p.x.into(),
+                p.y.into(),
+                p.z.into(),
+                c.azimuth_rad.into(),
+                c.elevation_rad.into(),
+            ]);
+        }
+    }
+    table
+}
