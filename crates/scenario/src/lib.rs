@@ -57,8 +57,8 @@ pub use build::{AgentInfo, AgentKind, Built};
 pub use error::{KeyError, ScenarioError};
 pub use file::{
     AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, EtsFile, Format, Law, LevelChange,
-    LoopFile, OutputFile, PID, POSITION, PathFile, Point, Polynomial, QuadrotorFile, ReferenceFile, Scenario,
-    SetPoint, StartFile, StopFile, TargetFile, WindFile, WindStep,
+    LoopFile, OutputFile, PID, POSITION, PathFile, Point, Polynomial, ProcessNoiseFile, QuadrotorFile,
+    ReferenceFile, Scenario, SetPoint, StartFile, StopFile, TargetFile, TurbulenceFile, WindFile, WindStep,
 };
 pub use flight::{End, Ending, Flight};
 pub use key::{get, set};

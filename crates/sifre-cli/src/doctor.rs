@@ -66,18 +66,15 @@ pub(crate) fn run(json: bool) -> Result<Exit, Failure> {
     } else {
         for Check { what, seen } in &checks {
             match seen {
-                Ok(seen) => println!("  ok    {what}: {seen}"),
-                Err(error) => println!("  FAILS {what}: {error}"),
+                Ok(seen) => report::say(format!("  ok    {what}: {seen}\n")),
+                Err(error) => report::say(format!("  FAILS {what}: {error}\n")),
             }
         }
-        println!(
-            "{}",
-            if sound {
-                "all is well"
-            } else {
-                "something is not well"
-            }
-        );
+        report::say(if sound {
+            "all is well\n"
+        } else {
+            "something is not well\n"
+        });
     }
     Ok(if sound { Exit::Done } else { Exit::Early })
 }

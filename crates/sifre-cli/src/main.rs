@@ -1,14 +1,19 @@
 //! `sifre`: the command line of the simulation engine.
 
+mod animate;
 mod disk;
 mod doctor;
+mod drawing;
 mod exit;
 mod interrupt;
+mod levels;
 mod new;
+mod plot;
 mod recorder;
 mod report;
 mod run;
 mod schema;
+mod sweep;
 mod varied;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -42,6 +47,14 @@ struct Arguments {
 enum What {
     /// Fly a scenario and record it.
     Run(run::Arguments),
+    /// Fly a scenario at all five levels of resolution and compare them.
+    Levels(levels::Arguments),
+    /// Fly a scenario many times with keys varied, on a grid or at random; an interrupted sweep goes on where it was.
+    Sweep(sweep::Arguments),
+    /// Draw a recording.
+    Plot(plot::Arguments),
+    /// Draw a flight as a page that moves, for a browser.
+    Animate(animate::Arguments),
     /// Write a commented scenario to start from.
     New(new::Arguments),
     /// Print the JSON schema of scenario files, for editors.
@@ -59,6 +72,10 @@ fn main() -> ExitCode {
     let Arguments { what, json } = Arguments::parse();
     let outcome = match what {
         What::Run(arguments) => run::run(&arguments, json),
+        What::Levels(arguments) => levels::run(&arguments, json),
+        What::Sweep(arguments) => sweep::run(&arguments, json),
+        What::Plot(arguments) => plot::run(&arguments, json),
+        What::Animate(arguments) => animate::run(&arguments, json),
         What::New(arguments) => new::run(&arguments, json),
         What::Schema => schema::run(),
         What::Doctor => doctor::run(json),

@@ -6,7 +6,7 @@ use crate::report;
 use std::path::PathBuf;
 
 /// The scenarios that come with the project: name and file.
-pub(crate) const READY: [(&str, &str); 16] = [
+pub(crate) const READY: [(&str, &str); 17] = [
     ("template", include_str!("../template.toml")),
     ("hover", include_str!("../../../scenarios/hover.toml")),
     (
@@ -20,6 +20,10 @@ pub(crate) const READY: [(&str, &str); 16] = [
     ("helix", include_str!("../../../scenarios/helix.toml")),
     ("waypoints", include_str!("../../../scenarios/waypoints.toml")),
     ("gust", include_str!("../../../scenarios/gust.toml")),
+    (
+        "near-the-ground",
+        include_str!("../../../scenarios/near-the-ground.toml"),
+    ),
     ("crazyflie", include_str!("../../../scenarios/crazyflie.toml")),
     ("payload", include_str!("../../../scenarios/payload.toml")),
     (
@@ -61,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let known = READY.iter().find(|(name, _)| *name == arguments.from);
     let text = known.map_or(READY[0].1, |(_, text)| text);
     let Some(path) = &arguments.file else {
-        print!("{text}");
+        report::say(text);
         return Ok(Exit::Done);
     };
     if path.exists() && !arguments.force {
@@ -71,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     if json {
         report::print(&serde_json::json!({ "written": path, "from": arguments.from }));
     } else {
-        println!("written: {0}\nfly it:  sifre run {0}", path.display());
+        report::say(format!("written: {0}\nfly it:  sifre run {0}\n", path.display()));
     }
     Ok(Exit::Done)
 }

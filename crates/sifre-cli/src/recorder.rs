@@ -40,7 +40,6 @@ pub(crate) fn attach(
 }
 
 /// Reads what is whole of a recording.
-#[allow(dead_code, reason = "read by the plots")]
 pub(crate) fn read(path: &Path) -> Result<Recovered, Failure> {
     let file = File::open(path).map_err(|source| Failure::Read {
         path: path.to_owned(),

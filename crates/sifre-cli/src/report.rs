@@ -25,9 +25,14 @@ pub(crate) struct Report {
     pub(crate) wall_s: f64,
 }
 
-/// Prints a value on standard output; a pipe that is closed is no error of ours.
+/// Prints a value on standard output.
 pub(crate) fn print(value: &Value) {
-    let _ = writeln!(std::io::stdout(), "{value:#}");
+    say(format!("{value:#}\n"));
+}
+
+/// Prints a text on standard output; a pipe that is closed is no error of ours.
+pub(crate) fn say(text: impl AsRef<str>) {
+    let _ = std::io::stdout().write_all(text.as_ref().as_bytes());
 }
 
 /// Metrics as a JSON object.

@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     if json {
         report::print(&report.json());
     } else {
-        print!("{}", report.text());
+        report::say(report.text());
     }
     if report.exit() != Exit::Done {
         eprintln!("error: {}", report.ending.report.status);

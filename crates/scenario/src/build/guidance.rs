@@ -11,7 +11,7 @@ use crate::error::ScenarioError;
 use crate::file::{Circle, QuadrotorFile, ReferenceFile, SetPoint};
 use nalgebra::Vector3;
 use quad_ndi::{FlatOutput, Reference, TiltLaw, Waypoint};
-use sifre::{Directory, Follow, Guidance, Mission, Moment, Schedule, UnknownAgent};
+use sifre::{Directory, Follow, Guidance, Mission, Moment, Schedule, Tilt, UnknownAgent};
 
 /// What a quadrotor is asked to do.
 #[derive(Clone, Debug)]
@@ -109,6 +109,17 @@ impl Guidance for Task {
         match self {
             Self::Follow(follow) => follow.bind(directory),
             _ => Ok(()),
+        }
+    }
+
+    fn tilt(&self) -> Option<Tilt> {
+        match self {
+            Self::Mission(mission) => mission.tilt(),
+            Self::Circle(Turn { gravity, law, .. }) => Some(Tilt {
+                gravity: *gravity,
+                law: *law,
+            }),
+            Self::Hold(_) | Self::Steps { .. } | Self::Follow(_) => None,
         }
     }
 

@@ -101,8 +101,8 @@ impl Scenario {
         for file in &self.quadrotor {
             quadrotor::add(&mut built, self, file, files)?;
         }
-        for (k, file) in self.ets.iter().enumerate() {
-            station::add(&mut built, self.seed.wrapping_add(k as u64), file, files)?;
+        for file in &self.ets {
+            station::add(&mut built, own_seed(self.seed, &file.name), file, files)?;
         }
         for file in &self.target {
             station::add_target(&mut built, file)?;
@@ -156,6 +156,15 @@ impl Built {
             patterns: self.output.channels.clone(),
         }
     }
+}
+
+/// The seed of an agent: by the scenario's seed and its name (FNV-1a), so that no two agents are twins and their order
+/// doesn't matter.
+fn own_seed(seed: u64, name: &str) -> u64 {
+    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    let bytes = seed.to_le_bytes().into_iter().chain(name.bytes());
+    bytes.fold(OFFSET, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
 }
 
 /// Refuses NaN and infinities.

@@ -1,11 +1,11 @@
 //! Quadrotors.
 
-use super::{AgentInfo, AgentKind, Built, Task, controller, start};
+use super::{AgentInfo, AgentKind, Built, Task, controller, own_seed, start};
 use crate::error::ScenarioError;
-use crate::file::{LevelChange, QuadrotorFile, Scenario};
+use crate::file::{LevelChange, QuadrotorFile, Scenario, TurbulenceFile};
 use crate::library::{Files, vehicle};
 use quad_dynamics::{CommandLimits, Level, Phenomenon, PhenomenonSet};
-use sifre::quadrotor::{LevelChoice, Script, Setup, Start};
+use sifre::quadrotor::{LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
 use sifre::{Facing, Member, Quadrotor, Schedule, ScheduleError};
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ pub(super) fn add(
             yaw_rad: begin.yaw,
         },
         velocity_m_s: begin.velocity.into(),
-        script: script(file)?,
+        script: script(file, own_seed(scenario.seed, &file.name))?,
         substeps: file.substeps,
         ..setup
     };
@@ -72,7 +72,13 @@ fn choice(level: Level, phenomena: Option<&PhenomenonSet>) -> LevelChoice {
 fn levels(file: &QuadrotorFile) -> impl Iterator<Item = LevelChoice> {
     let changes = file.level_changes.iter();
     let changes = changes.map(|change| choice(change.level, change.phenomena.as_ref()));
-    std::iter::once(choice(file.level, file.phenomena.as_ref())).chain(changes)
+    let by_rule = file
+        .level_rule
+        .iter()
+        .flat_map(|rule| [rule.fine.clone(), rule.coarse.clone()]);
+    std::iter::once(choice(file.level, file.phenomena.as_ref()))
+        .chain(changes)
+        .chain(by_rule)
 }
 
 fn any_phenomenon(file: &QuadrotorFile, phenomenon: Phenomenon) -> bool {
@@ -80,7 +86,7 @@ fn any_phenomenon(file: &QuadrotorFile, phenomenon: Phenomenon) -> bool {
 }
 
 /// What happens to it.
-fn script(file: &QuadrotorFile) -> Result<Script, ScenarioError> {
+fn script(file: &QuadrotorFile, seed: u64) -> Result<Script, ScenarioError> {
     let refuse = |key| {
         let agent = file.name.clone();
         move |source: ScheduleError| ScenarioError::Schedule { agent, key, source }
@@ -95,13 +101,23 @@ fn script(file: &QuadrotorFile) -> Result<Script, ScenarioError> {
     let first = (before != [0.0; 3]).then_some((0.0, before));
     let changes = file.level_changes.iter();
     let change = |change: &LevelChange| (change.from_s, choice(change.level, change.phenomena.as_ref()));
-    let offsets = file.command_offsets.iter();
+    let (offsets, turbulence) = (file.command_offsets.iter(), file.wind.turbulence);
     Ok(Script {
         wind_m_s: Schedule::new(first.into_iter().chain(steps)).map_err(refuse("wind.steps"))?,
         level: Schedule::new(changes.map(change)).map_err(refuse("level_changes"))?,
         command_offset: Schedule::new(offsets.map(|offset| (offset.from_s, offset.duty)))
             .map_err(refuse("command_offsets"))?,
-        ..Script::default()
+        wind: Wind {
+            shear: file.wind.shear,
+            turbulence: turbulence.map(|TurbulenceFile { w20_m_s }| Turbulence { w20_m_s, seed }),
+            ..Wind::default()
+        },
+        process_noise: file.process_noise.map(|noise| ProcessNoiseSource {
+            acceleration_m_s2_sqrt_hz: noise.acceleration_m_s2_sqrt_hz,
+            angular_acceleration_rad_s2_sqrt_hz: noise.angular_acceleration_rad_s2_sqrt_hz,
+            seed,
+        }),
+        rule: file.level_rule.clone(),
     })
 }
 

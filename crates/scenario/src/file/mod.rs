@@ -8,7 +8,10 @@ mod station;
 
 pub use controller::{AttitudeFile, ControllerFile, Law, LoopFile, PID, POSITION};
 pub use output::{BoxLimits, Format, OutputFile, StopFile};
-pub use quadrotor::{CommandOffset, LevelChange, QuadrotorFile, StartFile, WindFile, WindStep};
+pub use quadrotor::{
+    CommandOffset, LevelChange, ProcessNoiseFile, QuadrotorFile, StartFile, TurbulenceFile, WindFile,
+    WindStep,
+};
 pub use reference::{Circle, Point, Polynomial, ReferenceFile, SetPoint};
 pub use station::{EtsFile, PathFile, TargetFile};
 

@@ -1,9 +1,10 @@
 //! Quadrotors in a scenario file.
 
 use super::{ControllerFile, ReferenceFile};
-use quad_dynamics::{Level, Phenomenon, PhenomenonSet};
+use quad_dynamics::{Level, Phenomenon, PhenomenonSet, Shear};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use sifre::quadrotor::LevelRule;
 use sifre::{StepSize, steps};
 use std::num::NonZeroU32;
 
@@ -45,6 +46,13 @@ pub struct QuadrotorFile {
     /// Changes of level in flight, in order of time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub level_changes: Vec<LevelChange>,
+    /// The level by the distance to another agent; not together with changes of level.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "rule")]
+    pub level_rule: Option<LevelRule>,
+    /// Noise on the accelerations, drawn from the scenario's seed and the quadrotor's name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub process_noise: Option<ProcessNoiseFile>,
     /// Disturbances of the rotor commands, in order of time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub command_offsets: Vec<CommandOffset>,
@@ -81,6 +89,31 @@ pub struct WindFile {
     /// Changes of the wind, in order of time: two of them are a gust.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub steps: Vec<WindStep>,
+    /// How the wind grows with height; the same at all heights if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(schema_with = "shear")]
+    pub shear: Option<Shear>,
+    /// Random gusts about the wind, drawn from the scenario's seed and the quadrotor's name.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turbulence: Option<TurbulenceFile>,
+}
+
+/// Dryden's turbulence at low altitude.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TurbulenceFile {
+    /// Wind 20 ft above the ground, m/s, which sets the intensity: 7.7 is light, 15 moderate, 23 severe.
+    pub w20_m_s: f64,
+}
+
+/// White noise on the accelerations, for what nothing else explains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProcessNoiseFile {
+    /// Intensity of the acceleration's noise, m/s²/√Hz per axis.
+    pub acceleration_m_s2_sqrt_hz: f64,
+    /// Intensity of the angular acceleration's noise, rad/s²/√Hz per axis.
+    pub angular_acceleration_rad_s2_sqrt_hz: f64,
 }
 
 /// From this time on, this wind.
@@ -145,4 +178,55 @@ fn level(_: &mut SchemaGenerator) -> Schema {
 fn phenomena(_: &mut SchemaGenerator) -> Schema {
     let names = Phenomenon::ALL.map(Phenomenon::name);
     json_schema!({ "type": "array", "uniqueItems": true, "items": { "enum": names } })
+}
+
+fn shear(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({
+        "type": "object",
+        "additionalProperties": false,
+        "properties": {
+            "profile": {
+                "oneOf": [
+                    {
+                        "type": "object",
+                        "additionalProperties": false,
+                        "properties": { "law": { "const": "logarithmic" }, "roughness_m": { "type": "number" } },
+                        "required": ["law", "roughness_m"],
+                    },
+                    {
+                        "type": "object",
+                        "additionalProperties": false,
+                        "properties": { "law": { "const": "power" }, "exponent": { "type": "number" } },
+                        "required": ["law", "exponent"],
+                    },
+                ],
+            },
+            "reference_height_m": {
+                "type": "number",
+                "description": "Height above the ground at which the wind is as stated, m; 20 ft if absent.",
+            },
+        },
+        "required": ["profile"],
+    })
+}
+
+fn rule(generator: &mut SchemaGenerator) -> Schema {
+    let choice = json_schema!({
+        "type": "object",
+        "additionalProperties": false,
+        "properties": { "level": level(generator), "phenomena": phenomena(generator) },
+        "required": ["level"],
+    });
+    json_schema!({
+        "type": "object",
+        "additionalProperties": false,
+        "properties": {
+            "near": { "type": "string", "description": "Name of the agent whose distance counts." },
+            "fine": choice,
+            "coarse": choice,
+            "fine_within_m": { "type": "number", "description": "Fine from this distance down, m." },
+            "coarse_beyond_m": { "type": "number", "description": "Coarse from this distance up, m." },
+        },
+        "required": ["near", "fine", "coarse", "fine_within_m", "coarse_beyond_m"],
+    })
 }

@@ -37,7 +37,7 @@ fn exact_every_boundary_condition_of_a_pass_is_a_key() {
     let flight = scenario.build(&()).unwrap().fly().unwrap();
     let alpha = flight.simulation.published("alpha").unwrap();
     // It starts as its reference does: position, velocity, nose towards the station at the origin.
-    assert_eq!(alpha.position, [5.0, -5.0, -3.0].into());
+    assert_eq!(alpha.position, nalgebra::Vector3::new(5.0, -5.0, -3.0));
     // The velocity goes into body axes and back.
     assert!((alpha.velocity - nalgebra::Vector3::new(-1.5, 0.0, 0.0)).norm() < 1e-15);
     let heading = alpha.rotation.euler_angles().yaw;

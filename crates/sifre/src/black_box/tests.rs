@@ -149,6 +149,9 @@ fn exact_wrong_files_are_errors_that_say_where() {
     ));
 }
 
+/// Reads what is whole.
+type Recover = fn(&[u8]) -> Result<Recovered, BlackBoxError>;
+
 proptest! {
     /// However much of the file is lost: the rows before the cut come back bit for bit, and no other.
     #[test]
@@ -157,7 +160,7 @@ proptest! {
         write(&mut csv, width, &rows);
         let mut json = JsonLinesBox::new(Vec::new());
         write(&mut json, width, &rows);
-        let recover: [(Vec<u8>, usize, fn(&[u8]) -> Result<Recovered, BlackBoxError>); 2] = [
+        let recover: [(Vec<u8>, usize, Recover); 2] = [
             (csv.into_inner().unwrap(), 2, |text| Recording::recover_csv(text)),
             (json.into_inner().unwrap(), 1, |text| Recording::recover_json_lines(text)),
         ];

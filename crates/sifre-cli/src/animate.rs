@@ -1,0 +1,97 @@
+//! `sifre animate`: a flight as one HTML page that needs nothing else.
+
+use crate::disk::{self, Beside};
+use crate::exit::{Exit, Failure};
+use crate::varied::Template;
+use crate::{interrupt, recorder, report};
+use ::animate::{Options, Scene, html};
+use scenario::{AgentInfo, AgentKind, End, Flight};
+use sifre::Recording;
+use sifre::black_box::MemoryBox;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `sifre animate`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// A scenario (.toml), which is flown, or a recording (.csv, .parquet, .jsonl).
+    input: PathBuf,
+    /// The scenario that a recording is of, for the looks of its agents; guessed from the recording without it.
+    #[arg(long)]
+    scenario: Option<PathBuf>,
+    /// The page; beside the input without it.
+    #[arg(long, short)]
+    out: Option<PathBuf>,
+}
+
+/// Draws a flight.
+pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    let is_scenario = arguments.input.extension().is_some_and(|ending| ending == "toml");
+    let (recording, scene, exit) = if is_scenario {
+        interrupt::listen();
+        let Flown { scene, mut flight } = Flown::ready(&arguments.input)?;
+        let id = flight
+            .simulation
+            .attach(flight.output.step_s, MemoryBox::default())?;
+        let ending = flight.run(&mut interrupt::watch())?;
+        if ending.end != End::Done {
+            eprintln!("note: {} at {} s", ending.report.status, ending.report.time_s);
+        }
+        let memory = flight.simulation.detach::<MemoryBox>(id).and_then(Result::ok);
+        (memory.unwrap_or_default().recording, scene, ending.end.into())
+    } else {
+        let recording = recorded(&arguments.input)?;
+        let scene = match &arguments.scenario {
+            Some(path) => Flown::ready(path)?.scene,
+            None => Scene::from_recording(&recording),
+        };
+        (recording, scene, Exit::Done)
+    };
+    let page = html(&recording, &scene, &Options::default())
+        .map_err(|error| Failure::Usage(format!("{}: {error}", arguments.input.display())))?;
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| arguments.input.with_extension("html"));
+    disk::write(&out, page)?;
+    if json {
+        report::print(&serde_json::json!({ "page": out, "rows": recording.len(), "exit_code": exit.code() }));
+    } else {
+        report::say(format!("drawn: {}; open it in a browser\n", out.display()));
+    }
+    Ok(exit)
+}
+
+fn recorded(path: &Path) -> Result<Recording, Failure> {
+    let recovered = recorder::read(path)?;
+    if let Some(damage) = &recovered.damage {
+        eprintln!(
+            "note: {damage}; drawing the {} rows before it",
+            recovered.recording.len()
+        );
+    }
+    Ok(recovered.recording)
+}
+
+/// A scenario ready to fly, and the looks of its agents.
+struct Flown {
+    scene: Scene,
+    flight: Flight,
+}
+
+impl Flown {
+    fn ready(path: &Path) -> Result<Self, Failure> {
+        let scenario = Template::read(path)?.with([])?;
+        let flight = scenario.build(&Beside::of(path))?.fly()?;
+        let scene = flight.agents.iter().fold(Scene::new(scenario.name), drawn);
+        Ok(Self { scene, flight })
+    }
+}
+
+/// The scene with an agent.
+fn drawn(scene: Scene, AgentInfo { name, kind }: &AgentInfo) -> Scene {
+    match kind {
+        AgentKind::Quadrotor { vehicle, .. } => scene.quadrotor(name.clone(), vehicle.airframe.arm_length),
+        AgentKind::Ets { station, tracks } => scene.ets(name.clone(), tracks.clone(), station),
+        AgentKind::Target => scene.target(name.clone()),
+    }
+}

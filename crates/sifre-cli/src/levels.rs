@@ -1,0 +1,306 @@
+//! `sifre levels`: the same scenario at all five levels of resolution, and what they differ by.
+//!
+//! ```text
+//! position   |r_ℓ − r_5|
+//! attitude   θ = 2 asin(‖R_ℓ − R_5‖_F / √8)
+//! ```
+
+use crate::disk::Beside;
+use crate::exit::{Exit, Failure};
+use crate::varied::{Setting, Template, setting};
+use crate::{drawing, interrupt, report};
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{CellAlignment, Table};
+use quad_dynamics::{Level, Phenomenon};
+use quad_kinematics::EulerAngles;
+use quad_plot::figure::Legends;
+use quad_plot::{Figure, Panel, level_name, level_style};
+use scenario::{End, Files, Law, Scenario};
+use serde_json::json;
+use sifre::Recording;
+use sifre::black_box::MemoryBox;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Arguments of `sifre levels`.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// The scenario.
+    scenario: PathBuf,
+    /// The picture of the differences, .svg or .png.
+    #[arg(long, short)]
+    plot: Option<PathBuf>,
+    /// Keep the scenario's controllers at the levels that they may fly, instead of the inversion that belongs to each.
+    #[arg(long)]
+    keep_controllers: bool,
+    /// Set a key of the scenario: `--set duration_s=5`. May be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    settings: Vec<Setting>,
+}
+
+/// The scenario at one level.
+struct Flown {
+    level: Level,
+    end: End,
+    status: String,
+    wall_s: f64,
+    recording: Recording,
+}
+
+/// A quadrotor's difference to the highest level.
+struct Difference {
+    level: Level,
+    law: Law,
+    times_s: Vec<f64>,
+    position_m: Vec<f64>,
+    attitude_deg: Vec<f64>,
+}
+
+/// Flies a scenario at all levels.
+pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
+    if scenario.quadrotor.is_empty() {
+        return Err(Failure::Usage(
+            "there is no quadrotor in it: only quadrotors have levels".to_owned(),
+        ));
+    }
+    interrupt::listen();
+    let files = Beside::of(&arguments.scenario);
+    let mut flights = Vec::new();
+    for level in Level::ALL {
+        let scenario = at_level(&scenario, level, arguments.keep_controllers);
+        let flown = fly(&scenario, level, &files)?;
+        let is_interrupted = flown.end == End::Interrupted;
+        flights.push((scenario, flown));
+        if is_interrupted {
+            return Ok(Exit::Interrupted);
+        }
+    }
+    let agents: Vec<String> = scenario
+        .quadrotor
+        .iter()
+        .map(|agent| agent.name.clone())
+        .collect();
+    let differences: Vec<Vec<Difference>> = (0..agents.len())
+        .map(|k| differences(&flights, k, &agents[k]))
+        .collect();
+    if let Some(path) = &arguments.plot {
+        drawing::write(path, &figure(&agents, &differences))?;
+    }
+    if json {
+        report::print(&as_json(&agents, &differences, &flights));
+    } else {
+        report::say(format!("{}\n", table(&agents, &differences, &flights)));
+        if let Some(path) = &arguments.plot {
+            report::say(format!("drawn: {}\n", path.display()));
+        }
+    }
+    let all_done = flights.iter().all(|(_, flown)| flown.end == End::Done);
+    Ok(if all_done { Exit::Done } else { Exit::Early })
+}
+
+/// The scenario with every quadrotor at a level, with that level's own phenomena, from start to end.
+fn at_level(scenario: &Scenario, level: Level, keep: bool) -> Scenario {
+    let mut scenario = scenario.clone();
+    for quadrotor in &mut scenario.quadrotor {
+        let given = quadrotor.controller.kind.at(quadrotor.level);
+        quadrotor.level = level;
+        quadrotor.phenomena = None;
+        quadrotor.level_changes.clear();
+        quadrotor.level_rule = None;
+        if !level.phenomena().contains(Phenomenon::Drag) {
+            // What moves in the air is not felt without drag.
+            quadrotor.wind.shear = None;
+            quadrotor.wind.turbulence = None;
+        }
+        let kept = keep && given.lowest_level() <= level;
+        quadrotor.controller.kind = if kept { given } else { Law::Paired.at(level) };
+    }
+    scenario
+}
+
+fn fly(scenario: &Scenario, level: Level, files: &dyn Files) -> Result<Flown, Failure> {
+    let mut flight = scenario.build(files)?.fly()?;
+    let id = flight
+        .simulation
+        .attach(flight.output.step_s, MemoryBox::default())?;
+    let begin = Instant::now();
+    let ending = flight.run(&mut interrupt::watch())?;
+    let wall_s = begin.elapsed().as_secs_f64();
+    let memory = flight.simulation.detach::<MemoryBox>(id).and_then(Result::ok);
+    Ok(Flown {
+        level,
+        end: ending.end,
+        status: format!("{} at {} s", ending.report.status, ending.report.time_s),
+        wall_s,
+        recording: memory.unwrap_or_default().recording,
+    })
+}
+
+/// Differences of a quadrotor at each level to the highest, as long as both fly.
+fn differences(flights: &[(Scenario, Flown)], place: usize, agent: &str) -> Vec<Difference> {
+    let Some((_, best)) = flights.last() else {
+        return Vec::new();
+    };
+    let columns = |recording: &Recording| {
+        [
+            "position.x",
+            "position.y",
+            "position.z",
+            "attitude.roll",
+            "attitude.pitch",
+            "attitude.yaw",
+        ]
+        .map(|name| {
+            recording
+                .column(&format!("{agent}.{name}"))
+                .map_or_else(Vec::new, Iterator::collect::<Vec<f64>>)
+        })
+    };
+    let reference = columns(&best.recording);
+    let one = |(scenario, flown): &(Scenario, Flown)| {
+        let here = columns(&flown.recording);
+        let rows = flown.recording.len().min(best.recording.len());
+        let position = |k: usize| {
+            (0..3)
+                .map(|i| (here[i][k] - reference[i][k]).powi(2))
+                .sum::<f64>()
+                .sqrt()
+        };
+        let rotation = |columns: &[Vec<f64>; 6], k: usize| {
+            let (roll, pitch, yaw) = (columns[3][k], columns[4][k], columns[5][k]);
+            EulerAngles { roll, pitch, yaw }.rotation().matrix
+        };
+        let attitude = |k: usize| {
+            let distance = (rotation(&here, k) - rotation(&reference, k)).norm();
+            (2.0 * (distance / 8.0_f64.sqrt()).min(1.0).asin()).to_degrees()
+        };
+        Difference {
+            level: flown.level,
+            law: scenario.quadrotor[place].controller.kind,
+            times_s: flown.recording.times_s().take(rows).collect(),
+            position_m: (0..rows).map(position).collect(),
+            attitude_deg: (0..rows).map(attitude).collect(),
+        }
+    };
+    flights.iter().map(one).collect()
+}
+
+/// Root mean square and largest of a difference.
+struct Size {
+    rms: f64,
+    largest: f64,
+}
+
+impl Size {
+    fn of(values: &[f64]) -> Self {
+        let squares: f64 = values.iter().map(|x| x * x).sum();
+        Self {
+            rms: (squares / values.len().max(1) as f64).sqrt(),
+            largest: values.iter().copied().fold(0.0, f64::max),
+        }
+    }
+}
+
+fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[(Scenario, Flown)]) -> Table {
+    let mut table = Table::new();
+    table.load_style(UTF8_FULL_CONDENSED);
+    table.set_header([
+        "agent",
+        "level",
+        "law",
+        "position rms, m",
+        "max, m",
+        "attitude rms, °",
+        "max, °",
+        "computing, s",
+        "end",
+    ]);
+    for (agent, differences) in agents.iter().zip(differences) {
+        for (difference, (_, flown)) in differences.iter().zip(flights) {
+            let (position, attitude) = (
+                Size::of(&difference.position_m),
+                Size::of(&difference.attitude_deg),
+            );
+            table.add_row([
+                agent.clone(),
+                difference.level.number().to_string(),
+                difference.law.name().to_owned(),
+                format!("{:.4}", position.rms),
+                format!("{:.4}", position.largest),
+                format!("{:.3}", attitude.rms),
+                format!("{:.3}", attitude.largest),
+                format!("{:.3}", flown.wall_s),
+                flown.status.clone(),
+            ]);
+        }
+    }
+    for column in table.column_iter_mut().skip(3).take(5) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn as_json(
+    agents: &[String],
+    differences: &[Vec<Difference>],
+    flights: &[(Scenario, Flown)],
+) -> serde_json::Value {
+    let rows = agents.iter().zip(differences).flat_map(|(agent, differences)| {
+        differences
+            .iter()
+            .zip(flights)
+            .map(move |(difference, (_, flown))| {
+                let (position, attitude) = (
+                    Size::of(&difference.position_m),
+                    Size::of(&difference.attitude_deg),
+                );
+                json!({
+                    "agent": agent,
+                    "level": difference.level.number(),
+                    "law": difference.law.name(),
+                    "position_rms_m": position.rms,
+                    "position_max_m": position.largest,
+                    "attitude_rms_deg": attitude.rms,
+                    "attitude_max_deg": attitude.largest,
+                    "wall_s": flown.wall_s,
+                    "end": flown.status,
+                })
+            })
+    });
+    json!({ "differences_to_level": 5, "rows": rows.collect::<Vec<_>>() })
+}
+
+/// A column per quadrotor: position above, attitude below.
+fn figure(agents: &[String], differences: &[Vec<Difference>]) -> Figure {
+    let panel = |label: &str, agent: &str, differences: &[Difference], of: fn(&Difference) -> &[f64]| {
+        let lower = differences
+            .iter()
+            .filter(|difference| difference.level != Level::Five);
+        let panel = Panel::new("Time *t*, s", label).caption(agent);
+        lower.fold(panel, |panel, difference| {
+            let number = difference.level.number();
+            let name = format!("{}, {}", level_name(number), difference.law.name());
+            let points = difference
+                .times_s
+                .iter()
+                .copied()
+                .zip(of(difference).iter().copied());
+            panel.line(name, level_style(number), points)
+        })
+    };
+    let mut figure = Figure::columns(agents.len()).share_x();
+    for (agent, differences) in agents.iter().zip(differences) {
+        let label = "Position, difference to level 5, m";
+        figure = figure.panel(panel(label, agent, differences, |d| &d.position_m));
+    }
+    for differences in differences {
+        let label = "Attitude, difference to level 5, °";
+        figure = figure.panel(panel(label, "", differences, |d| &d.attitude_deg));
+    }
+    figure.legends(if agents.len() == 1 {
+        Legends::Common
+    } else {
+        Legends::EachPanel
+    })
+}

@@ -1,0 +1,280 @@
+//! `sifre sweep`: a scenario flown many times with keys varied.
+//!
+//! Every run is a pure function of its number: the grid's point is `n / runs`, the draw `n mod runs`. Draw d takes its
+//! numbers from stream d of a ChaCha8 generator of the sweep's seed, key by key, and flies with the scenario's seed
+//! plus d; so all points of a grid see the same draws, and neither threads nor interruptions change a row. Rows go to a journal
+//! (`<out>.journal`) as they come and to the table, in order, at the end.
+
+mod axes;
+mod journal;
+mod table;
+
+use crate::disk::Beside;
+use crate::exit::{Exit, Failure};
+use crate::varied::Template;
+use crate::{interrupt, report};
+use axes::{Axis, Draw};
+use indicatif::{ProgressBar, ProgressStyle};
+use journal::Journal;
+use rayon::prelude::*;
+use scenario::{End, Files, MetricsBox, Scenario};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+/// Arguments of `sifre sweep`.
+///
+/// Grids: every combination of --set and --range is flown. Random: --normal and --uniform are drawn --runs times for
+/// each combination.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// The scenario.
+    scenario: PathBuf,
+    /// Values of a key: `--set quadrotor.alpha.level=1,3,5`. May be repeated.
+    #[arg(long = "set", value_name = "KEY=A,B,C", value_parser = axes::set)]
+    sets: Vec<Axis>,
+    /// Evenly spaced values of a key, both ends included: `--range quadrotor.alpha.reference.x_0_m=3:7:9`. May be repeated.
+    #[arg(long = "range", value_name = "KEY=LOW:HIGH:N", value_parser = axes::range)]
+    ranges: Vec<Axis>,
+    /// A key drawn from a normal distribution: `--normal quadrotor.alpha.parameters.airframe.mass_kg=1.4:0.05`. May be repeated.
+    #[arg(long = "normal", value_name = "KEY=MEAN:DEVIATION", value_parser = axes::normal)]
+    normals: Vec<Draw>,
+    /// A key drawn from an interval: `--uniform quadrotor.alpha.start.yaw_deg=-180:180`. May be repeated.
+    #[arg(long = "uniform", value_name = "KEY=LOW:HIGH", value_parser = axes::uniform)]
+    uniforms: Vec<Draw>,
+    /// Draws for each combination of the grid.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    /// Seed of the draws.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// The table, .parquet or .csv.
+    #[arg(long, short, default_value = "sweep.parquet")]
+    out: PathBuf,
+    /// Threads; as many as there are cores without it.
+    #[arg(long)]
+    jobs: Option<usize>,
+    /// Begin anew, even if a journal of this sweep is there.
+    #[arg(long)]
+    restart: bool,
+}
+
+/// One run: a row of the table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Row {
+    /// Its number.
+    pub(crate) run: u64,
+    /// Values of the keys that are varied, in the order of the arguments.
+    pub(crate) inputs: Vec<toml::Value>,
+    /// How it ended, in words.
+    pub(crate) end: String,
+    /// The exit code that `sifre run` would give.
+    pub(crate) exit_code: u8,
+    /// When it ended, s; nothing if it could not be flown.
+    pub(crate) time_s: Option<f64>,
+    /// The flight in a few numbers.
+    pub(crate) metrics: Vec<(String, Option<f64>)>,
+}
+
+/// Flies a scenario many times.
+pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    table::check(&arguments.out)?;
+    let plan = Plan::of(arguments)?;
+    interrupt::listen();
+    let journal = Journal::open(&arguments.out, &plan.fingerprint(), arguments.restart)?;
+    let done = journal.rows.len();
+    let bar = progress_bar(plan.count, done as u64, json);
+    let rows = plan.fly_all(journal, arguments.jobs, &bar)?;
+    bar.finish_and_clear();
+    if (rows.len() as u64) < plan.count {
+        let left = plan.count - rows.len() as u64;
+        eprintln!(
+            "interrupted with {left} of {} runs left: the same command goes on from here",
+            plan.count
+        );
+        return Ok(Exit::Interrupted);
+    }
+    table::write(&arguments.out, &plan.keys(), &rows)?;
+    Journal::remove(&arguments.out);
+    let flown = |exit: Exit| rows.iter().filter(|row| row.exit_code == exit.code()).count();
+    let refused = flown(Exit::BadInput);
+    if json {
+        report::print(&serde_json::json!({
+            "runs": rows.len(), "done": flown(Exit::Done), "ended_early": flown(Exit::Early),
+            "refused": refused, "taken_from_journal": done, "output": arguments.out,
+        }));
+    } else {
+        report::say(format!(
+            "{} runs: {} done, {} ended early, {refused} could not be flown\nrecorded in {}\n",
+            rows.len(),
+            flown(Exit::Done),
+            flown(Exit::Early),
+            arguments.out.display()
+        ));
+    }
+    match rows.first() {
+        Some(row) if refused == rows.len() => {
+            Err(Failure::Usage(format!("no run could be flown: {}", row.end)))
+        }
+        _ => Ok(Exit::Done),
+    }
+}
+
+/// All there is to fly.
+struct Plan<'a> {
+    template: Template,
+    axes: Vec<&'a Axis>,
+    draws: Vec<&'a Draw>,
+    runs: u64,
+    seed: u64,
+    count: u64,
+    files: Beside,
+}
+
+impl<'a> Plan<'a> {
+    fn of(arguments: &'a Arguments) -> Result<Self, Failure> {
+        let axes: Vec<&Axis> = arguments.sets.iter().chain(&arguments.ranges).collect();
+        let sizes = axes.iter().map(|axis| axis.values.len() as u64);
+        let runs = u64::from(arguments.runs);
+        let count = sizes.chain([runs]).try_fold(1_u64, u64::checked_mul);
+        let plan = Self {
+            template: Template::read(&arguments.scenario)?,
+            axes,
+            draws: arguments.normals.iter().chain(&arguments.uniforms).collect(),
+            runs,
+            seed: arguments.seed,
+            count: count.ok_or_else(|| Failure::Usage("more runs than can be counted".to_owned()))?,
+            files: Beside::of(&arguments.scenario),
+        };
+        // Keys that don't exist are told before anything is flown.
+        plan.template.with(&plan.settings(0))?;
+        Ok(plan)
+    }
+
+    /// The keys that are varied.
+    fn keys(&self) -> Vec<String> {
+        let axes = self.axes.iter().map(|axis| axis.key.clone());
+        axes.chain(self.draws.iter().map(|draw| draw.key.clone()))
+            .collect()
+    }
+
+    /// What makes this sweep another than the next.
+    fn fingerprint(&self) -> String {
+        format!(
+            "{:?} {:?} {:?} runs {} seed {} of {}",
+            self.axes,
+            self.draws,
+            self.template,
+            self.runs,
+            self.seed,
+            env!("CARGO_PKG_VERSION")
+        )
+    }
+
+    /// The keys of a run.
+    fn settings(&self, run: u64) -> Vec<crate::varied::Setting> {
+        let (mut point, draw) = (run / self.runs, run % self.runs);
+        let mut settings = Vec::new();
+        // The last axis runs fastest.
+        for axis in self.axes.iter().rev() {
+            let size = axis.values.len() as u64;
+            settings.push(axis.setting((point % size) as usize));
+            point /= size;
+        }
+        settings.reverse();
+        settings.extend(axes::draw(&self.draws, self.seed, draw));
+        settings
+    }
+
+    /// Flies all runs that the journal doesn't have; the rows that there are then, in order.
+    fn fly_all(&self, journal: Journal, jobs: Option<usize>, bar: &ProgressBar) -> Result<Vec<Row>, Failure> {
+        let has: Vec<u64> = journal.rows.iter().map(|row| row.run).collect();
+        let left: Vec<u64> = (0..self.count)
+            .filter(|run| has.binary_search(run).is_err())
+            .collect();
+        let journal = Mutex::new(journal);
+        let one = |&run: &u64| -> Result<(), Failure> {
+            if interrupt::asked() {
+                return Ok(());
+            }
+            let Some(row) = self.fly(run) else {
+                return Ok(());
+            };
+            bar.inc(1);
+            // Another thread that panicked has left the rows before its own whole.
+            journal
+                .lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner)
+                .add(row)
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs.unwrap_or(0))
+            .build();
+        let pool = pool.map_err(|error| Failure::Usage(format!("--jobs: {error}")))?;
+        pool.install(|| left.par_iter().try_for_each(one))?;
+        let mut rows = journal
+            .into_inner()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+            .rows;
+        rows.sort_by_key(|row| row.run);
+        Ok(rows)
+    }
+
+    /// Flies one run; nothing if it was interrupted.
+    fn fly(&self, run: u64) -> Option<Row> {
+        let settings = self.settings(run);
+        let inputs = settings.iter().map(|setting| setting.value.clone()).collect();
+        let flown = self.template.with(&settings).and_then(|mut scenario| {
+            scenario.seed = scenario.seed.wrapping_add(run % self.runs);
+            fly(&scenario, &self.files)
+        });
+        match flown {
+            Ok((ending, _)) if ending.end == End::Interrupted => None,
+            Ok((ending, metrics)) => Some(Row {
+                run,
+                inputs,
+                end: ending.report.status.to_string(),
+                exit_code: Exit::from(ending.end).code(),
+                time_s: Some(ending.report.time_s),
+                // JSON has no number for what is not finite.
+                metrics: metrics
+                    .into_iter()
+                    .map(|m| (m.name, Some(m.value).filter(|x| x.is_finite())))
+                    .collect(),
+            }),
+            Err(failure) => Some(Row {
+                run,
+                inputs,
+                end: failure.to_string(),
+                exit_code: failure.exit().code(),
+                time_s: None,
+                metrics: Vec::new(),
+            }),
+        }
+    }
+}
+
+/// Flies a scenario without recording it.
+fn fly(scenario: &Scenario, files: &dyn Files) -> Result<(scenario::Ending, Vec<scenario::Metric>), Failure> {
+    let mut flight = scenario.build(files)?.fly()?;
+    let id = flight
+        .simulation
+        .attach(flight.output.step_s, MetricsBox::default())?;
+    let ending = flight.run(&mut interrupt::watch())?;
+    let metrics = flight.simulation.detach::<MetricsBox>(id).and_then(Result::ok);
+    Ok((ending, metrics.map_or_else(Vec::new, |metrics| metrics.metrics())))
+}
+
+fn progress_bar(count: u64, done: u64, json: bool) -> ProgressBar {
+    let bar = if json {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(count)
+    };
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len}  {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    // Runs of before must not count for the speed of now.
+    bar.set_position(done);
+    bar.reset_eta();
+    bar
+}

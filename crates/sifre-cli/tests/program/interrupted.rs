@@ -1,0 +1,120 @@
+//! Ctrl-C: what was recorded stays readable, and the exit code says so.
+#![cfg(unix)]
+
+use crate::support::{Folder, Ran, ready};
+use sifre::Recording;
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+/// What ends a test that hangs, polls of 10 ms.
+const PATIENCE: u32 = 3000;
+
+/// Waits until a file has some bytes.
+fn wait_for(path: &Path, bytes: u64) {
+    for _ in 0..PATIENCE {
+        if fs::metadata(path).is_ok_and(|file| file.len() >= bytes) {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    panic!("{} does not grow", path.display());
+}
+
+/// Sends Ctrl-C, and waits for the end.
+fn interrupt(child: Child) -> Ran {
+    let signal = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(signal.expect("kill is there").success());
+    Ran(child.wait_with_output().expect("it ends"))
+}
+
+fn start(folder: &Folder, arguments: &[&str]) -> Child {
+    let mut command = folder.command(arguments);
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().expect("the program starts")
+}
+
+#[test]
+fn exact_an_interrupted_flight_is_readable() {
+    let folder = Folder::new("interrupted");
+    for (form, grows) in [("csv", 20_000), ("jsonl", 20_000), ("parquet", 4)] {
+        let (out, path) = (format!("a.{form}"), folder.path(&format!("a.{form}")));
+        let child = start(
+            &folder,
+            &[
+                "run",
+                "-q",
+                &ready("hover"),
+                "-o",
+                &out,
+                "--set",
+                "duration_s=100000",
+                "--set",
+                "output.step_s=0.01",
+            ],
+        );
+        wait_for(&path, grows);
+        interrupt(child).exits(130).says(&["interrupted"]);
+        let file = File::open(&path).unwrap();
+        let recording = match form {
+            "csv" => Recording::from_csv(file),
+            "jsonl" => Recording::from_json_lines(file),
+            _ => Recording::from_parquet(file),
+        };
+        let recording = recording.unwrap();
+        assert!(!recording.is_empty());
+        // Whole from the start on, nothing left out.
+        assert!(
+            (0..)
+                .zip(recording.times_ns())
+                .all(|(k, ns)| *ns == k * 10_000_000)
+        );
+    }
+}
+
+/// An interrupted sweep goes on where it was, and its table is that of one that was not interrupted.
+#[test]
+fn exact_an_interrupted_sweep_goes_on() {
+    let folder = Folder::new("resumed");
+    let scenario = ready("hover");
+    let arguments = |out: &'static str| {
+        [
+            "sweep",
+            &scenario,
+            "--range",
+            "quadrotor.alpha.reference.position_m.2=-3:-1:5",
+            "--runs",
+            "8",
+            "--normal",
+            "quadrotor.alpha.parameters.airframe.mass_kg=1.4:0.02",
+            "--seed",
+            "3",
+            "--out",
+            out,
+        ]
+        .map(str::to_owned)
+    };
+    let run = |out| {
+        let arguments = arguments(out);
+        folder.run(&arguments.each_ref().map(String::as_str))
+    };
+    run("whole.csv").exits(0);
+    let pieces = arguments("pieces.csv");
+    let child = start(&folder, &pieces.each_ref().map(String::as_str));
+    // The heading is some thousand bytes long, a row some two hundred.
+    wait_for(&folder.path("pieces.csv.journal"), 500);
+    let ran = interrupt(child);
+    // On a fast machine it may be done by now; the table must be the same all the same.
+    if ran.0.status.code() != Some(0) {
+        let ran = ran.exits(130).says(&["runs left"]);
+        assert!(!folder.path("pieces.csv").exists());
+        drop(ran);
+        run("pieces.csv").exits(0);
+    }
+    let read = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
+    assert_eq!(read("pieces.csv"), read("whole.csv"));
+    assert!(!folder.path("pieces.csv.journal").exists());
+}
