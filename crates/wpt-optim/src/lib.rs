@@ -1,4 +1,58 @@
 //! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
+//!
+//! A quadrotor crosses the field of a ground station that keeps a laser on the receiver it carries. Where should it cross, and how
+//! fast should it enter and leave, so that range, incidence and spot offset stay small? A [`Problem`] is that question at one level of the model
+//! family; it is asked by flying.
+//!
+//! ```
+//! use quad_dynamics::Level;
+//! use wpt_optim::{Choice, Problem};
+//!
+//! // Cross in 4 s (the studies take 10 s and 20 s), deciding on x_0 and x_f.
+//! let problem = Problem::nominal(Choice::Two, 4.0, Level::Three)?;
+//! let near = problem.evaluate(&[1.5, 1.5])?;
+//! let far = problem.evaluate(&[5.0, 5.0])?;
+//! assert!(far.cost < near.cost && near.means.incidence > far.means.incidence);
+//!
+//! // Downhill from there, by dual numbers through the whole flight.
+//! let slope = problem.gradient(&[1.5, 1.5])?.gradient;
+//! assert!(slope[0] + slope[1] < 0.0);
+//! # Ok::<(), wpt_optim::ProblemError>(())
+//! ```
+//!
+//! # Where to find an equation
+//!
+//! | equation | code | source |
+//! | --- | --- | --- |
+//! | polynomials from boundary conditions | [`Mission`], [`Ends`], [`Condition`] | thesis 7.4 |
+//! | nose to the station, tilt and rates from the path | [`Path`] | 7.4, appendix A |
+//! | `Φ = 1/T ∫ Σ w_i f(e_i²) + Σ p_j f(v_j²) dt` | head of `cost.rs`; [`Weights`], [`Penalties`], [`Terms`] | 7.5 |
+//! | controller, model, station and cost in one loop | head of `rollout.rs` | |
+//! | the cost without dynamics | [`Problem::ideal`] | |
+//! | the nominal settings | [`Choice`], [`Mission::crossing`] | 7.6, *choices* |
+//!
+//! # What a problem can be asked
+//!
+//! | question | by |
+//! | --- | --- |
+//! | one decision | [`Problem::evaluate`], with its history [`Problem::histories`] |
+//! | four side by side, on SIMD lanes | [`Problem::evaluate_lanes`] |
+//! | many, on lanes and all cores | [`Problem::evaluate_all`], [`Problem::surface`] |
+//! | cost and gradient | [`Problem::gradient`] |
+//! | the same flight in the engine, bit for bit | [`Problem::simulation`] |
+//! | a function for optimisers that counts | [`Objective`] |
+//!
+//! # Conventions
+//!
+//! World north-east-down; a decision on a height is one on `z = −h`. Pairing: c1 on level 1, c2 on level 2, c3 on levels 3 to 5. Bounds
+//! are the optimiser's business: a decision outside is flown like any other. The cost is finite whatever happens; a failed
+//! flight says when it failed.
+//!
+//! # What it does not do
+//!
+//! No wind, no noise: a cost is a number, not a sample. A gradient is that of the side of a kink that was flown (a lost target, a
+//! command at its limit). Over the station the bearing turns by half a turn at once and costs are steep there: trust no
+//! gradient within half a metre of the zenith.
 
 mod condition;
 mod cost;
@@ -29,3 +83,8 @@ pub use outcome::{Failure, Histories, History, Outcome};
 pub use path::Path;
 pub use problem::{Gradient, LANES, Problem};
 pub use surface::{Grid, Minimum, Objective, Surface};
+
+/// The README's example is tested with the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -93,26 +93,26 @@ impl Choice {
 }
 
 impl Mission {
-    /// The nominal crossing in this many seconds.
+    /// The nominal crossing in this many seconds by the vehicle and station that the library brings along.
     pub fn nominal(duration_s: f64) -> Self {
-        let mut station = Station::nominal();
+        Self::crossing(duration_s, Arc::new(Vehicle::qball_x4()), Station::nominal())
+    }
+
+    /// The nominal crossing by a vehicle of a station's field; its pedestal is turned to the east.
+    pub fn crossing(duration_s: f64, vehicle: Arc<Vehicle>, mut station: Station) -> Self {
         station.pedestal.heading = FRAC_PI_2;
         let at = |y| Ends::at_rest([HALF_CROSSING_M, y, -HEIGHT_M]);
+        let (start, finish) = (at(-HALF_CROSSING_M), at(HALF_CROSSING_M));
+        let position = LoopSettings {
+            settling_time_s: POSITION_SETTLING_S,
+            ..LoopSettings::default()
+        };
         Self {
             settings: Settings {
-                position: LoopSettings {
-                    settling_time_s: POSITION_SETTLING_S,
-                    ..LoopSettings::default()
-                },
+                position,
                 ..Settings::default()
             },
-            ..Self::new(
-                duration_s,
-                at(-HALF_CROSSING_M),
-                at(HALF_CROSSING_M),
-                Arc::new(Vehicle::qball_x4()),
-                station,
-            )
+            ..Self::new(duration_s, start, finish, vehicle, station)
         }
     }
 }

@@ -10,16 +10,14 @@ use crate::outcome::{Histories, History, Outcome};
 use crate::path::Path;
 use crate::rollout::Tally;
 use nalgebra::SimdValue;
+use num_dual::Dual64;
 use quad_dynamics::Level;
-use quad_math::{Dual, F64x4, Real};
+use quad_math::{F64x4, Real};
 use sifre::Variable;
 use std::num::NonZeroU64;
 
 /// How many decisions are flown side by side.
 pub const LANES: usize = 4;
-
-/// Partial derivatives that one flight over dual numbers gives.
-const PARTIALS: usize = 2;
 
 /// A trajectory optimisation at one level.
 ///
@@ -166,7 +164,7 @@ impl Problem {
     /// [`Outcome::failure`].
     pub fn evaluate(&self, x: &[f64]) -> Result<Outcome, ProblemError> {
         let path = self.path_of(x)?;
-        Ok(self.outcome(&self.fleet.fly(&self.timing, &path, |_| ())))
+        Ok(self.outcome(&self.fleet.fly(&self.timing, &path, &mut |_| ())))
     }
 
     /// Flies a decision and keeps every `every`-th instant of the station, the first and the last.
@@ -177,7 +175,7 @@ impl Problem {
         let path = self.path_of(x)?;
         let count = self.timing.grid.steps() / self.timing.ratio;
         let (mut n, mut instants) = (0, Vec::with_capacity((count / every) as usize + 2));
-        let tally = self.fleet.fly(&self.timing, &path, |instant| {
+        let tally = self.fleet.fly(&self.timing, &path, &mut |instant| {
             if n % every == 0 || n == count {
                 instants.push(History::of(
                     instant,
@@ -203,7 +201,7 @@ impl Problem {
         }
         let component = |i: usize| F64x4::from(decisions.map(|x| x[i]));
         let path = self.path(&self.lanes, (0..self.decisions.len()).map(component))?;
-        let tally = self.lanes.fly(&self.timing, &path, |_| ());
+        let tally = self.lanes.fly(&self.timing, &path, &mut |_| ());
         Ok(std::array::from_fn(|lane| {
             self.outcome(&Tally {
                 cost: tally.cost.extract(lane),
@@ -213,34 +211,26 @@ impl Problem {
         }))
     }
 
-    /// Cost and gradient, by dual numbers through the whole flight.
+    /// Cost and gradient, by dual numbers through the whole flight, one flight per variable.
     ///
-    /// Two partial derivatives per flight. Where a kink is crossed (a lost target's moment, a frame that just misses
-    /// it) the gradient is that of the side flown on.
+    /// Where a kink is crossed (a lost target's moment, a frame that just misses it) the gradient is that of the side
+    /// flown on.
     ///
     /// # Errors
     /// As [`Problem::evaluate`].
     pub fn gradient(&self, x: &[f64]) -> Result<Gradient, ProblemError> {
         self.check(x)?;
-        let fleet = Fleet::<Dual<PARTIALS>>::build(&self.mission, self.level, &self.cost)?;
+        let fleet = Fleet::<Dual64>::build(&self.mission, self.level, &self.cost)?;
         let (mut cost, mut gradient) = (0.0, Vec::with_capacity(x.len()));
-        for first in (0..x.len()).step_by(PARTIALS) {
+        for varied in 0..x.len() {
             let seeded = x.iter().enumerate().map(|(i, &value)| {
-                let mut dual = Dual::<PARTIALS>::from_re(value);
-                if (first..first + PARTIALS).contains(&i) {
-                    dual.eps = num_dual::Derivative::derivative_generic(
-                        nalgebra::Const::<PARTIALS>,
-                        nalgebra::U1,
-                        i - first,
-                    );
-                }
-                dual
+                let rate = if i == varied { 1.0 } else { 0.0 };
+                Dual64::new(value, rate)
             });
             let path = self.path(&fleet, seeded)?;
-            let tally = fleet.fly(&self.timing, &path, |_| ());
+            let tally = fleet.fly(&self.timing, &path, &mut |_| ());
             cost = tally.cost.re;
-            let partials = tally.cost.eps.0.unwrap_or_default();
-            gradient.extend(partials.iter().take(x.len() - first));
+            gradient.push(tally.cost.eps);
         }
         Ok(Gradient { cost, gradient })
     }

@@ -97,12 +97,11 @@ pub(crate) fn launched<R: Real, M: QuadrotorModel<R>>(model: &M, path: &Path<R>)
 }
 
 /// Flies a path and adds up what it costs; `watch` sees every instant of the station.
-#[inline(always)]
 pub(crate) fn rollout<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
     agents: &Agents<R, M, C>,
     timing: &Timing,
     path: &Path<R>,
-    mut watch: impl FnMut(&Instant<'_, R>),
+    watch: &mut dyn FnMut(&Instant<'_, R>),
 ) -> Tally<R> {
     let Agents {
         model,
@@ -116,10 +115,8 @@ pub(crate) fn rollout<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
     let mut state = model.adopt(&start, &hover);
     let mut memory = controller.initial_memory();
     let mut commands = hover.commands;
-    let receiver = ets.receiver.on(
-        &model.flight(&state).position,
-        &model.flight(&state).rotation.matrix,
-    );
+    let seen = model.flight(&state);
+    let receiver = ets.receiver.on(&seen.position, &seen.rotation.matrix);
     let mut station = aimed(ets, &receiver.centre);
     let (mut alive, mut failed) = (R::one(), R::zero());
     let mut sums = [R::zero(); 7];

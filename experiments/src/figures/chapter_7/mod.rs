@@ -5,6 +5,8 @@ use crate::item::Item;
 mod annealed;
 mod crossed;
 mod figure_7_1;
+mod figure_7_14;
+mod figure_7_15;
 mod figure_7_2;
 mod figure_7_3;
 mod figure_7_5;
@@ -15,6 +17,7 @@ mod global_minima;
 mod growth;
 mod himmelblau;
 mod optimisations;
+pub(super) mod mission;
 mod overfill;
 mod run_time;
 mod six_variables;
@@ -56,4 +59,6 @@ pub(super) const ITEMS: &[Item] = &[
     global_minima::TABLE_7_6,
     crossed::FIGURE_7_26,
     crossed::FIGURE_7_27,
+    figure_7_14::ITEM,
+    figure_7_15::ITEM,
 ];

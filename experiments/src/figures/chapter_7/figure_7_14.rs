@@ -1,0 +1,138 @@
+//! Figure 7.14: contours of the cost of two variables, at every level.
+
+use super::mission::{CEILING, MAPPED_S, problem, surfaces};
+use crate::claim::Claim;
+use crate::data::{Cell, DataTable};
+use crate::drawing::{DisplayTable, Drawing};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::plot::figure::Legends;
+use crate::plot::style::{INK, Look, Marker};
+use crate::plot::{Figure, Panel};
+use kuva::plot::{ColorMap, ContourPlot};
+use kuva::render::plots::Plot;
+use quad_dynamics::Level;
+use wpt_optim::{Choice, Minimum, Surface};
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "7.14",
+    title: "Cost contours at every level, two variables, 20 s",
+    description: "The cost *Φ* of crossing the station's field from [*x*_{0}, −5 m] to [*x*_{f}, 5 m] in 20 s, 3 m high, from rest to rest, \
+                  over both variables: the ideal cost of a vehicle and a beam that are exactly where they should be, and the cost flown at each \
+                  level. Contours at 1.15, 1.2, 1.3, 1.5, 2, 3, 10 and 30; dots are minima of the grid. The station stands at the origin: paths near \
+                  the falling diagonal pass over it.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[SEVERAL],
+    make: Make::Draw(draw),
+};
+
+const SEVERAL: Claim = Claim::holds("several local minima");
+
+/// Contours of the cost.
+const CONTOURS: [f64; 8] = [1.15, 1.2, 1.3, 1.5, 2.0, 3.0, 10.0, 30.0];
+
+const DOT: Look = Look::solid(INK, 1.4).marked(Marker::Circle);
+
+/// A panel of costs over the two variables.
+fn panel(name: &str, first: &[f64], second: &[f64], costs: &[f64], minima: &[Minimum]) -> Panel {
+    let grid: Vec<Vec<f64>> = costs
+        .chunks(first.len())
+        .map(|row| row.iter().map(|cost| cost.min(CEILING).log10()).collect())
+        .collect();
+    let (xs, ys) = (first.to_vec(), second.to_vec());
+    let contours = CONTOURS.map(f64::log10);
+    let [low, high] = [xs[0], xs[xs.len() - 1]];
+    Panel::new("*x*_{0}, m", "*x*_{f}, m")
+        .kuva(move || {
+            let plot = ContourPlot::new()
+                .with_grid(grid.clone(), xs.clone(), ys.clone())
+                .with_levels(&contours)
+                .with_filled()
+                .with_colormap(ColorMap::Viridis);
+            Plot::Contour(plot)
+        })
+        .markers("", DOT, minima.iter().map(|m| (m.at[0], m.at[1])))
+        .x_range(low, high)
+        .y_range(low, high)
+        .x_step(4.0)
+        .y_step(4.0)
+        .caption(name)
+}
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let surfaces = surfaces(context)?;
+    let ideal = ideal(context, &surfaces[0])?;
+    let costs = |s: &Surface| s.outcomes.iter().map(|o| o.cost).collect::<Vec<f64>>();
+    let (first, second) = (&surfaces[0].first, &surfaces[0].second);
+    let mut figure = Figure::columns(3).panel(panel("ideal", first, second, &ideal, &[]));
+    let mut columns = vec![
+        (
+            "x_0_m".to_owned(),
+            second.iter().flat_map(|_| first.clone()).collect::<Vec<_>>(),
+        ),
+        (
+            "x_f_m".to_owned(),
+            second.iter().flat_map(|&b| vec![b; first.len()]).collect(),
+        ),
+        ("cost_ideal".to_owned(), ideal),
+    ];
+    let mut shown = DisplayTable::new([
+        "Level",
+        "Minima of the grid: *x*_{0}, *x*_{f}, m: *Φ*",
+        "Failed flights",
+    ]);
+    let mut counts = Vec::new();
+    for (level, surface) in Level::ALL.into_iter().zip(surfaces.iter()) {
+        let minima = surface.minima();
+        figure = figure.panel(panel(&level.to_string(), first, second, &costs(surface), &minima));
+        columns.push((format!("cost_{}", level.number()), costs(surface)));
+        let words = |m: &Minimum| format!("{:.1}, {:.1}: {:.4}", m.at[0], m.at[1], m.cost);
+        shown.push([
+            level.to_string(),
+            minima.iter().map(words).collect::<Vec<_>>().join("; "),
+            surface.failures().to_string(),
+        ]);
+        counts.push(minima.len());
+    }
+    let data: Vec<(&str, &[f64])> = columns.iter().map(|(n, v)| (n.as_str(), v.as_slice())).collect();
+    let least = counts.iter().min().copied().unwrap_or(0);
+    Ok(Drawing::picture(figure.panel_size(200.0, 200.0).legends(Legends::None).draw())
+        .beneath(shown)
+        .data(DataTable::from_columns(&data))
+        .named_data("minima", minima_table(&surfaces))
+        .scenario(&toml::toml! { vehicle = "vehicles/qball-x4.toml" station = "stations/ets.toml" pedestal_heading_deg = 90.0 duration_s = 20.0 height_m = 3.0 position_settling_s = 5.0 })?
+        .check(
+            SEVERAL,
+            least >= 2,
+            format!("{least} or more at every level on {} by {} nodes", first.len(), second.len()),
+        ))
+}
+
+/// The ideal cost at the nodes of a surface.
+fn ideal(context: &Context, surface: &Surface) -> Result<Vec<f64>, ItemError> {
+    let problem = problem(context, Choice::Two, MAPPED_S, Level::Two)?;
+    let mut costs = Vec::with_capacity(surface.outcomes.len());
+    for &b in &surface.second {
+        for &a in &surface.first {
+            costs.push(problem.ideal(&[a, b])?.cost);
+        }
+    }
+    Ok(costs)
+}
+
+fn minima_table(surfaces: &[Surface]) -> DataTable {
+    let mut table = DataTable::new(["level", "x_0_m", "x_f_m", "cost"]);
+    for (level, surface) in Level::ALL.into_iter().zip(surfaces) {
+        for minimum in surface.minima() {
+            let row: [Cell; 4] = [
+                level.number().into(),
+                minimum.at[0].into(),
+                minimum.at[1].into(),
+                minimum.cost.into(),
+            ];
+            table.push(row);
+        }
+    }
+    table
+}

@@ -1,0 +1,110 @@
+//! Figure 7.15: the cost manifolds, and the slope at the same start.
+
+use super::mission::{CEILING, MAPPED_S, problem, surfaces};
+use crate::claim::Claim;
+use crate::data::DataTable;
+use crate::drawing::{DisplayTable, Drawing};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::plot::figure::Legends;
+use crate::plot::space::View;
+use crate::plot::style::{INK, Look, Marker};
+use crate::plot::{Figure, Space, level_style};
+use quad_dynamics::Level;
+use wpt_optim::{Choice, Gradient, Surface};
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "7.15",
+    title: "Cost manifolds at every level, two variables, 20 s",
+    description: "The surfaces whose contours are figure 7.14, as log_{10} *Φ* over *x*_{0} and *x*_{f}, with the start *X*_{0} = [5, 5] m. The wall \
+                  between the two valleys is the path over the station. Beneath: cost and slope at the start, the slope by dual numbers through the whole \
+                  flight.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[SLOPES],
+    make: Make::Draw(draw),
+};
+
+const SLOPES: Claim = Claim::holds("the slope at the same start differs between levels");
+
+/// What the derivative is good for, 1/m: ten times its distance from central differences (tested to 1e-6 there, and 1e-8 here).
+const ACCURACY: f64 = 1e-7;
+
+/// From where both valleys are seen.
+const VIEW: View = View {
+    azimuth_deg: -70.0,
+    elevation_deg: 42.0,
+};
+
+const START: Look = Look::solid(INK, 1.6).marked(Marker::Circle);
+
+/// The surface as its lines along both variables.
+fn space(level: Level, surface: &Surface, start: [f64; 3]) -> Space {
+    let height = |column: usize, row: usize| surface.cost(column, row).min(CEILING).log10();
+    let (columns, rows) = (surface.first.len(), surface.second.len());
+    let every = (columns - 1).div_ceil(20);
+    let look = Look::solid(level_style(level.number()).colour, 0.8);
+    let mut space = Space::new("*x*_{0}, m", "*x*_{f}, m", "log_{10} *Φ*")
+        .caption(level.to_string())
+        .view(VIEW)
+        .without_shadows()
+        .range(2, 0.0, 2.0);
+    for row in (0..rows).step_by(every) {
+        let line = (0..columns).map(|c| [surface.first[c], surface.second[row], height(c, row)]);
+        space = space.line("", look, line);
+    }
+    for column in (0..columns).step_by(every) {
+        let line = (0..rows).map(|r| [surface.first[column], surface.second[r], height(column, r)]);
+        space = space.line("", look, line);
+    }
+    space.markers("", START, [start])
+}
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let surfaces = surfaces(context)?;
+    let mut figure = Figure::columns(3);
+    let mut shown = DisplayTable::new(["Level", "*Φ*", "∂*Φ*/∂*x*_{0}, m^{−1}", "∂*Φ*/∂*x*_{f}, m^{−1}"]);
+    let mut slopes: Vec<(u8, Gradient)> = Vec::new();
+    for (level, surface) in Level::ALL.into_iter().zip(surfaces.iter()) {
+        let problem = problem(context, Choice::Two, MAPPED_S, level)?;
+        let x = problem.start();
+        let slope = problem.gradient(&x)?;
+        figure = figure.panel(space(level, surface, [x[0], x[1], slope.cost.log10()]));
+        shown.push([
+            level.to_string(),
+            format!("{:.5}", slope.cost),
+            format!("{:.6}", slope.gradient[0]),
+            format!("{:.6}", slope.gradient[1]),
+        ]);
+        slopes.push((level.number(), slope));
+    }
+    let distance = |a: &Gradient, b: &Gradient| {
+        let d = |i: usize| a.gradient[i] - b.gradient[i];
+        d(0).hypot(d(1))
+    };
+    let norm = slopes[0].1.gradient[0].hypot(slopes[0].1.gradient[1]);
+    let mut distances = Vec::new();
+    for (i, (_, a)) in slopes.iter().enumerate() {
+        distances.extend(slopes[..i].iter().map(|(_, b)| distance(a, b)));
+    }
+    let [least, most] = [f64::min, f64::max].map(|f| distances.iter().copied().reduce(f).unwrap_or(f64::NAN));
+    let column = |f: fn(&(u8, Gradient)) -> f64| slopes.iter().map(f).collect::<Vec<f64>>();
+    Ok(Drawing::picture(figure.panel_size(230.0, 200.0).legends(Legends::None).draw())
+        .beneath(shown)
+        .data(DataTable::from_columns(&[
+            ("level", &column(|(level, _)| f64::from(*level))),
+            ("cost", &column(|(_, slope)| slope.cost)),
+            ("slope_x_0_per_m", &column(|(_, slope)| slope.gradient[0])),
+            ("slope_x_f_per_m", &column(|(_, slope)| slope.gradient[1])),
+        ]))
+        .scenario(&toml::toml! { vehicle = "vehicles/qball-x4.toml" station = "stations/ets.toml" pedestal_heading_deg = 90.0 duration_s = 20.0 height_m = 3.0 position_settling_s = 5.0 start_m = [5.0, 5.0] })?
+        .check(
+            SLOPES,
+            least > ACCURACY,
+            format!(
+                "slopes of any two levels differ by {:.4} % to {:.1} % of level 1's {norm:.4} per metre",
+                100.0 * least / norm,
+                100.0 * most / norm
+            ),
+        ))
+}
