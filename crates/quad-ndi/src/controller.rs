@@ -3,6 +3,7 @@
 use crate::{Reference, SettingsError};
 use nalgebra::{Matrix4, Vector4};
 use quad_dynamics::{CommandLimits, Flight, Level, Vehicle};
+pub(crate) use quad_math::wrapped;
 use quad_math::{Flat, Real, constant};
 
 /// A controller's answer: commands, and its memory for the next call.
@@ -155,11 +156,4 @@ pub(crate) fn limited<R: Real>(limits: Option<&CommandLimits<R>>, commands: [R; 
         Some(l) => commands.map(|u| u.simd_clamp(l.minimum, l.maximum)),
         None => commands,
     }
-}
-
-/// An angle brought into ±π by whole turns.
-#[inline(always)]
-pub(crate) fn wrapped<R: Real>(angle: R) -> R {
-    let turn: R = constant(std::f64::consts::TAU);
-    angle - (angle / turn).simd_round() * turn
 }

@@ -13,7 +13,7 @@
 //! | violation v | of |
 //! | --- | --- |
 //! | `ε/ε_max − 1` | lost target: the receiver's angle ε off the optical axis, and the camera's half angle of view ε_max |
-//! | `(|e_s| + w)/a − 1` | overfill: the spot, of radius w, over the edge of the receiver, a from its centre |
+//! | `1 − a/(|e_s| + w)` | overfill: how much of the reach of the spot, of radius w, is over the edge of the receiver, a from its centre |
 //! | `(h_min − h)/1 m` | the ground |
 //! | `√Σ (u_i − sat u_i)²/(u_max − u_min)` | saturation: commands beyond the rotors' limits, whether the model has limits or not |
 //!
@@ -27,7 +27,7 @@ use quad_math::{Real, atan2, constant, sqrt};
 use serde::{Deserialize, Serialize};
 
 /// Ratio Q to a limit beyond which a term grows with the logarithm only.
-pub const BEND: f64 = 5.0;
+pub const BEND: f64 = 3.0;
 
 /// What each instant costs after a flight has failed: more than any instant of a flight that has not.
 pub const FAILURE: f64 = 1e5;
@@ -302,7 +302,7 @@ impl<R: Real> Cost<R> {
                 incidence: bent(square(link.incidence / self.incidence_limit)),
                 spot: bent(spot_squared / square(self.spot_limit)),
                 lost_target: penalty(angle(&ray.direction, &from_axes) / self.view_limit - R::one()),
-                overfill: penalty(reach / self.edge - R::one()),
+                overfill: penalty(R::one() - self.edge / reach),
                 ground: penalty(self.least_height + flight.position.z),
                 saturation: bent(self.excess_squared(commands)),
             },
@@ -341,13 +341,14 @@ mod tests {
     #[test]
     fn exact_squares_within_the_bend_and_growth_with_a_continuous_slope_beyond() {
         assert_eq!(bent(0.0), 0.0);
-        assert_eq!(bent(24.0), 24.0);
+        let square = BEND * BEND;
+        assert_eq!(bent(0.9 * square), 0.9 * square);
         // Q² (1 + ln e) = 2 Q².
-        assert!((bent(25.0 * std::f64::consts::E) - 50.0).abs() < 1e-12);
-        for s in [24.999, 25.001] {
-            // d/ds is 1 below and Q²/s above: 1 − 4e-5.
-            let slope = jacobian(|x| [bent(x[0])], [s]).x;
-            assert!((slope - 1.0).abs() < 5e-5, "{slope} at {s}");
+        assert!((bent(square * std::f64::consts::E) - 2.0 * square).abs() < 1e-13);
+        for part in [1.0 - 1e-6, 1.0 + 1e-6] {
+            // d/ds is 1 below and Q²/s above: 1 − 1e-6.
+            let slope = jacobian(|x| [bent(x[0])], [part * square]).x;
+            assert!((slope - 1.0).abs() < 2e-6, "{slope} at {part} Q²");
         }
         assert!(bent(1e300_f64).is_finite() && bent(1e300) > bent(1e299));
         assert_eq!(penalty(-3.0), 0.0);

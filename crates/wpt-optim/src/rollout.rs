@@ -18,7 +18,7 @@ use crate::path::Path;
 use ets::{Ets, EtsInput, EtsState};
 use nalgebra::{SimdBool, Vector2, Vector3};
 use quad_dynamics::{Flight, Input, QuadrotorModel, Snapshot};
-use quad_math::{FixedStep, Real, constant};
+use quad_math::{FixedStep, Real, constant, wrapped};
 use quad_ndi::Controller;
 
 /// Everybody of a flight, over one kind of scalar.
@@ -78,9 +78,7 @@ fn share(n: u64, count: u64) -> f64 {
 /// The station's state at the start: at rest, its axis on the receiver as nearly as its travel allows.
 pub(crate) fn aimed<R: Real>(ets: &Ets<R>, receiver: &Vector3<R>) -> EtsState<R> {
     let line = receiver - ets.pedestal.origin();
-    let turn: R = constant(std::f64::consts::TAU);
-    let pan = quad_math::atan2(line.y, line.x) - ets.pedestal.heading;
-    let pan = pan - (pan / turn).simd_round() * turn;
+    let pan = wrapped(quad_math::atan2(line.y, line.x) - ets.pedestal.heading);
     let level = quad_math::sqrt(line.x * line.x + line.y * line.y);
     let tilt = quad_math::atan2(-line.z, level);
     let (p, t) = (&ets.gimbal.pan, &ets.gimbal.tilt);
