@@ -234,9 +234,8 @@ fn lowest(
     let evolved = run(&mut evolution, cost, limits, &mut go_on)
         .map_err(failed)?
         .best;
-    // Its steps as large as the trust region's, to a tenth of the smallest of them.
+    // To a tenth of the smallest trust region.
     let simplex = SimplexSettings {
-        step: settings.radius,
         spread: 0.1 * settings.least_radius,
         cost_spread: settings.gain * evolved.cost.abs(),
         restarts: 1,

@@ -86,10 +86,6 @@ fn guided_search_saves_calls(f: fn(usize, &[f64]) -> f64, n: usize) {
         assert_eq!(truth(&found.values), found.cost);
         assert_eq!(report.history.last(), Some(&found.cost));
         let (calls, allowed) = (report.calls[4], plain.evaluations / 4);
-        println!(
-            "seed {seed}: {:.6} of {best:.6}, calls {:?}, plain {} to {:.6}",
-            found.cost, report.calls, plain.evaluations, plain.best.cost
-        );
         assert!(found.cost <= 1.01 * best, "seed {seed}: {} of {best}", found.cost);
         assert!(calls <= allowed, "seed {seed}: {calls} calls of {allowed}");
     }
@@ -100,6 +96,7 @@ fn exact_guided_search_in_two_variables() {
     guided_search_saves_calls(tilted_himmelblau, 2);
 }
 
+/// Rosenbrock's function has a second minimum in four variables, at about (-1, 1, 1, 1), 1.186 here: one of the 20 plain searches ends there.
 #[test]
 fn exact_guided_search_in_four_variables() {
     guided_search_saves_calls(valley, 4);
