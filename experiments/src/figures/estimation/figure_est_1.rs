@@ -13,7 +13,7 @@ use quad_estimation::sensor::Quality;
 pub(super) const ITEM: Item = Item {
     id: "est.1",
     title: "State estimation: errors by the filter's level and by the quality of its sensors",
-    description: "An error-state Kalman filter on each level estimates the same eight flights of level 5 (with noise, along the trajectory of \
+    description: "An error-state Kalman filter on each level estimates the same four flights of level 5 (with noise, along the trajectory of \
                   figure 6.17) from accelerometer, gyroscope, magnetometer, sonar and position fixes of three qualities. The noise of a \
                   lower level is the likeliest on a flight of its own. Root mean squares from the second second on.",
     kind: Kind::Plot,
@@ -38,7 +38,7 @@ const SHOWN: [(&str, &str, f64); 3] = [
     ("tilt_deg", "Tilt error, °", 57.295_779_513_082_32),
 ];
 
-/// Eight flights have the same truth and sensors for all filters; below a per cent two filters are the same.
+/// The flights have the same truth and sensors for all filters; below a per cent two filters are the same.
 const SAME: f64 = 0.01;
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {

@@ -69,7 +69,11 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
                 series_style(5),
                 band,
             )
-            .line(if place == 0 { "error" } else { "" }, level_style(5), line);
+            .line(
+                if place == 0 { "error" } else { "" },
+                level_style(5).dashed(""),
+                line,
+            );
         figure = figure.panel(panel);
         for (_, e, s) in &rows {
             all += 1;

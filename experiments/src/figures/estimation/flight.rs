@@ -3,8 +3,8 @@
 use super::super::chapter_6::{flight_settings, path_waypoints};
 use crate::item::ItemError;
 use nalgebra::{DVector, Vector3};
-use quad_dynamics::{AnyQuadrotor, Input, Level, RigidBodyState, Snapshot, Vehicle};
-use quad_estimation::sensor::{Instrument, Measurement, Quality, Sensor};
+use quad_dynamics::{AnyQuadrotor, CommandLimits, Input, Level, RigidBodyState, Snapshot, Vehicle};
+use quad_estimation::sensor::{Measurement, Quality};
 use quad_estimation::{
     Belief, Estimate, Estimator, ExtendedFilter, Filter, InitialUncertainty, LevelProcess, Process,
     ProcessNoise,
@@ -17,8 +17,8 @@ use rand_distr::{Distribution, StandardNormal};
 /// Step of controller, truth and filters: that of the inertial unit.
 const STEP_NS: u64 = 10_000_000;
 pub(super) const STEP_S: f64 = 0.01;
-/// Trajectory and two seconds to settle.
-const STEPS: u64 = 1400;
+/// Most of the trajectory.
+const STEPS: u64 = 1000;
 /// How far above the trajectory of figure 6.17 it is flown, m, within a sonar's range.
 const ABOVE_M: f64 = 1.0;
 
@@ -47,27 +47,11 @@ pub(super) enum Eyes {
 
 /// What disturbs the truth; biases drift as the sensors' do.
 pub(super) fn noise(quality: Quality) -> ProcessNoise {
-    let sensor = |which| quality.sensors().into_iter().find(|s| s.instrument == which);
-    let drift = |which, least: f64| sensor(which).map_or(least, |s: Sensor| s.bias_drift);
-    let own = ProcessNoise::default();
-    ProcessNoise {
-        gyroscope_bias: drift(Instrument::Gyroscope, own.gyroscope_bias),
-        accelerometer_bias: drift(Instrument::Accelerometer, own.accelerometer_bias),
-        ..own
-    }
+    ProcessNoise::default().with_drifts_of(&quality.sensors())
 }
 
 fn uncertainty(quality: Quality) -> InitialUncertainty {
-    let own = InitialUncertainty::default();
-    let bias = |which, least| {
-        let sensor = quality.sensors().into_iter().find(|s| s.instrument == which);
-        sensor.map_or(least, |s| s.turn_on_bias)
-    };
-    InitialUncertainty {
-        gyroscope_bias_rad_s: bias(Instrument::Gyroscope, own.gyroscope_bias_rad_s),
-        accelerometer_bias_m_s2: bias(Instrument::Accelerometer, own.accelerometer_bias_m_s2),
-        ..own
-    }
+    InitialUncertainty::default().with_biases_of(&quality.sensors())
 }
 
 fn normals(n: usize, random: &mut ChaCha8Rng) -> DVector<f64> {
@@ -148,7 +132,9 @@ impl Truth {
                 Some(Estimator::new(filter, input, suite.longest_delay_ns() + STEP_NS))
             }
         };
-        let mut pilot = AnyController::C3(C3::new(vehicle, &flight_settings())?.into());
+        // Only level 5 knows the limits: no command may be beyond them, or the others would predict what can't be.
+        let limits = Some(CommandLimits::of(vehicle));
+        let mut pilot = AnyController::C3(C3::new(vehicle, &flight_settings())?.into()).with_limits(limits);
         let per_step = process.process_noise(STEP_S).map(f64::sqrt);
         for k in 1..=STEPS {
             let flat = path.flat_output((k - 1) as f64 * STEP_S);
@@ -204,9 +190,12 @@ impl Truth {
         let mut estimator = Estimator::new(filter, self.input, memory_ns + STEP_NS);
         let mut told = Told::default();
         for (k, instant) in self.instants.iter().enumerate() {
-            estimator.predict(&instant.input, (k as u64 + 1) * STEP_NS)?;
+            let at = |error| ItemError::new(format!("at step {k}: {error}"));
+            estimator
+                .predict(&instant.input, (k as u64 + 1) * STEP_NS)
+                .map_err(at)?;
             for measurement in &instant.measurements {
-                let innovation = estimator.update(measurement)?;
+                let innovation = estimator.update(measurement).map_err(at)?;
                 told.nis += innovation.nis;
                 told.readings += innovation.residual.len();
                 told.log_likelihood += innovation.log_likelihood();

@@ -11,12 +11,12 @@ use rayon::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Flights that are compared, and fewer of them for the unscented filter and in the loop.
-const SEEDS: u64 = 8;
-const FEW: u64 = 2;
+const SEEDS: u64 = 4;
+const FEW: u64 = 1;
 /// A flight of its own to choose the process noise on.
 const TRAINING_SEED: u64 = 1000;
-/// Factors tried on the noise of the rates, then on that of the disturbance.
-const FACTORS: [f64; 3] = [1.0, 3.0, 10.0];
+/// Factors tried on the noise of the disturbance, then on that of the rates.
+const FACTORS: [f64; 4] = [1.0, 3.0, 10.0, 30.0];
 
 /// Which kind of filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,14 +127,20 @@ fn tuned(vehicle: &Vehicle, quality: Quality, level: Level, training: &Truth) ->
         return Ok(best);
     }
     let mut likeliest = f64::NEG_INFINITY;
-    for which in 0..2 {
+    for which in [1, 0] {
         for factor in FACTORS {
             let mut tried = best;
             tried[which] = factor;
+            if tried == best && likeliest.is_finite() {
+                continue;
+            }
             let filter = filter(vehicle, level, scaled(quality, tried), quality, training)?;
             let memory_ns = quality.suite().longest_delay_ns();
-            let told = training.filtered(filter, memory_ns, usize::MAX, |_, _, _| ())?;
-            if told.log_likelihood > likeliest {
+            // A filter that diverges with this noise is no candidate.
+            let told = training.filtered(filter, memory_ns, usize::MAX, |_, _, _| ());
+            if let Ok(told) = told
+                && told.log_likelihood > likeliest
+            {
                 (likeliest, best) = (told.log_likelihood, tried);
             }
         }
@@ -153,7 +159,7 @@ fn row(
     let mut sums = Sums::new(quality, level, KindOfFilter::Extended, factors);
     for truth in flights {
         let filter = filter(vehicle, level, scaled(quality, factors), quality, truth)?;
-        sums.add(truth, filter)?;
+        sums.add(truth, filter);
     }
     Ok(sums.finished())
 }
@@ -163,7 +169,8 @@ fn unscented(vehicle: &Vehicle, quality: Quality, flights: &[Truth]) -> Result<R
     for truth in flights {
         let (start, input) = truth.told();
         let (process, belief) = first(vehicle, Level::Five, noise(quality), quality, start, input)?;
-        sums.add(truth, UnscentedFilter::new(process, belief, Spread::default())?)?;
+        let filter = UnscentedFilter::new(process, belief, Spread::default())?;
+        sums.add(truth, filter);
     }
     Ok(sums.finished())
 }

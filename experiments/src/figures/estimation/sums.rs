@@ -2,7 +2,6 @@
 
 use super::flight::{Told, Truth};
 use super::study::{KindOfFilter, Row};
-use crate::item::ItemError;
 use nalgebra::SVector;
 use quad_dynamics::Level;
 use quad_estimation::sensor::Quality;
@@ -39,11 +38,7 @@ impl Sums {
     }
 
     /// Filters one more flight; errors count from its second second on.
-    pub(super) fn add(
-        &mut self,
-        truth: &Truth,
-        filter: impl Filter<Process = LevelProcess>,
-    ) -> Result<(), ItemError> {
+    pub(super) fn add(&mut self, truth: &Truth, filter: impl Filter<Process = LevelProcess>) {
         let memory_ns = self.row.quality.suite().longest_delay_ns();
         let (last, settled) = (truth.instants.len(), 2.0 / super::flight::STEP_S);
         let (row, count) = (&mut self.row, &mut self.count);
@@ -56,12 +51,16 @@ impl Sums {
             if k == last {
                 row.nees += estimate.nees(body);
             }
-        })?;
+        });
         row.flights += 1;
+        // A filter that lost its covariance has no errors that a mean could be taken of: they are infinite.
+        let Ok(told) = told else {
+            (row.errors, row.nees) = ([f64::INFINITY; 4], f64::INFINITY);
+            return;
+        };
         row.told.nis += told.nis;
         row.told.readings += told.readings;
         row.told.log_likelihood += told.log_likelihood;
-        Ok(())
     }
 
     /// The row, root mean squares drawn.
