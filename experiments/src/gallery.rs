@@ -63,6 +63,10 @@ pub fn page(items: &[Item], summary: &Summary, table: impl Fn(&str) -> String) -
 }
 
 fn chapter_name(chapter: &str) -> String {
+    // Not of the thesis' chapters.
+    if chapter == "est" {
+        return "Beyond: state estimation".to_owned();
+    }
     let title = match chapter {
         "1" => "Introduction",
         "2" => "Background",

@@ -17,6 +17,7 @@ mod chapter_4;
 mod chapter_5;
 mod chapter_6;
 mod chapter_7;
+mod estimation;
 mod glyphs;
 mod photographs;
 
@@ -38,6 +39,7 @@ const CHAPTERS: &[&[Item]] = &[
     appendix_e::ITEMS,
     appendix_f::ITEMS,
     appendix_g::ITEMS,
+    estimation::ITEMS,
 ];
 
 /// `steps + 1` numbers from `from` to `to`, evenly apart.

@@ -54,8 +54,9 @@ pub(crate) struct Layout {
 
 /// A rotor's bandwidth as a scale for rates of thrust and torque, 1/s: the order of a small motor's.
 const RATE_SCALE: f64 = 20.0;
-/// Scale of the charge drawn, Ah.
-const CHARGE_SCALE_AH: f64 = 1.0;
+/// Scale of the charge drawn, Ah: small against the charge over which a full battery's voltage falls (1/B = 0.03 Ah), below which
+/// the discharge curve is no curve.
+const CHARGE_SCALE_AH: f64 = 0.01;
 
 impl Layout {
     pub(crate) fn of(model: &AnyQuadrotor<f64>, longest_step_s: f64) -> Self {

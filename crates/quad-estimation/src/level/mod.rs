@@ -69,6 +69,14 @@ fn step<R: Real>(
     moved
 }
 
+/// What a state shows: the level's model and the disturbance.
+fn seen<R: Real>(model: &mut AnyQuadrotor<R>, layout: &Layout, x: &[R], input: &Input<R>) -> Seen<R> {
+    model.read_state(x);
+    let mut seen = Seen::of(model, input);
+    seen.specific_force += layout.disturbance(x);
+    seen
+}
+
 /// What an instrument is expected to read.
 fn read<R: Real>(
     model: &mut AnyQuadrotor<R>,
@@ -77,9 +85,7 @@ fn read<R: Real>(
     input: &Input<R>,
     instrument: Instrument,
 ) -> Reading<R> {
-    model.read_state(x);
-    let mut seen = Seen::of(model, input);
-    seen.specific_force += layout.disturbance(x);
+    let seen = seen(model, layout, x, input);
     match (instrument, instrument.ideal(&seen)) {
         (Instrument::Accelerometer, Reading::Vector(f)) => Reading::Vector(f + layout.accelerometer_bias(x)),
         (Instrument::Gyroscope, Reading::Vector(w)) => Reading::Vector(w + layout.gyroscope_bias(x)),
@@ -171,6 +177,11 @@ impl LevelProcess {
     pub fn model_at(&mut self, mean: &DVector<f64>) -> &AnyQuadrotor<f64> {
         self.model.read_state(mean.as_slice());
         &self.model
+    }
+
+    /// What there is to be seen of a state: where the process is the truth, its sensors look at this.
+    pub fn seen(&mut self, x: &DVector<f64>, input: &Input<f64>) -> Seen<f64> {
+        seen(&mut self.model, &self.layout, x.as_slice(), input)
     }
 
     pub(crate) fn layout(&self) -> &Layout {

@@ -3,6 +3,7 @@
 use super::layout::{EXTRAS, Layout, places};
 use crate::EstimationError;
 use crate::error::positive;
+use crate::sensor::{Instrument, Sensor};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +19,7 @@ pub struct InitialUncertainty {
     pub attitude_rad: f64,
     /// Of the rates, rad/s.
     pub rates_rad_s: f64,
-    /// Of the rotors' states and the charge drawn, relative to hover and to 1 Ah.
+    /// Of the rotors' states and the charge drawn, relative to hover and to 0.01 Ah.
     pub own: f64,
     /// Of the disturbance, m/s².
     pub disturbance_m_s2: f64,
@@ -57,7 +58,7 @@ pub struct ProcessNoise {
     pub attitude: f64,
     /// Of the rates, rad/s/√s: moments that the level has not.
     pub rates: f64,
-    /// Of the rotors' states and the charge drawn, 1/√s, relative to hover and to 1 Ah.
+    /// Of the rotors' states and the charge drawn, 1/√s, relative to hover and to 0.01 Ah.
     pub own: f64,
     /// Of the disturbance's random walk, m/s²/√s.
     pub disturbance: f64,
@@ -83,6 +84,12 @@ impl Default for ProcessNoise {
     }
 }
 
+/// A number of the sensor of this kind, where there is one and the number is not zero.
+fn of_sensor(sensors: &[Sensor], kind: Instrument, number: fn(&Sensor) -> f64) -> Option<f64> {
+    let sensor = sensors.iter().find(|s| s.instrument == kind);
+    sensor.map(number).filter(|&value| value > 0.0)
+}
+
 /// The eight groups of numbers in the order of the error state.
 struct Groups {
     first: [f64; 4],
@@ -101,6 +108,17 @@ impl Groups {
 }
 
 impl InitialUncertainty {
+    /// The same with the biases that these sensors are turned on with.
+    #[must_use]
+    pub fn with_biases_of(self, sensors: &[Sensor]) -> Self {
+        let bias = |kind| of_sensor(sensors, kind, |s| s.turn_on_bias);
+        Self {
+            gyroscope_bias_rad_s: bias(Instrument::Gyroscope).unwrap_or(self.gyroscope_bias_rad_s),
+            accelerometer_bias_m_s2: bias(Instrument::Accelerometer).unwrap_or(self.accelerometer_bias_m_s2),
+            ..self
+        }
+    }
+
     /// Checks that every deviation is positive.
     ///
     /// # Errors
@@ -144,6 +162,17 @@ impl InitialUncertainty {
 }
 
 impl ProcessNoise {
+    /// The same with the drifts of these sensors' biases.
+    #[must_use]
+    pub fn with_drifts_of(self, sensors: &[Sensor]) -> Self {
+        let drift = |kind| of_sensor(sensors, kind, |s| s.bias_drift);
+        Self {
+            gyroscope_bias: drift(Instrument::Gyroscope).unwrap_or(self.gyroscope_bias),
+            accelerometer_bias: drift(Instrument::Accelerometer).unwrap_or(self.accelerometer_bias),
+            ..self
+        }
+    }
+
     /// Checks that every density is positive: an error that nothing drives would end with no variance at all.
     ///
     /// # Errors

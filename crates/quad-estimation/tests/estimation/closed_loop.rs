@@ -42,12 +42,16 @@ fn fly(filter_level: Level, quality: Quality, which: Loop, seed: u64) -> Flown {
         ProcessNoise {
             disturbance: 0.3,
             rates: 0.3,
-            ..ProcessNoise::default()
+            ..ProcessNoise::default().with_drifts_of(&quality.sensors())
         },
     )
     .unwrap();
     let belief = process
-        .belief(&truth.snapshot(&input), &input, &InitialUncertainty::default())
+        .belief(
+            &truth.snapshot(&input),
+            &input,
+            &InitialUncertainty::default().with_biases_of(&quality.sensors()),
+        )
         .unwrap();
     let filter = ExtendedFilter::new(process, belief).unwrap();
     let suite: SensorSuite = quality.suite();

@@ -4,6 +4,7 @@ use crate::item::Item;
 
 pub(crate) use figure_6_14::claims_of as claims_of_figure_6_14;
 pub(crate) use paths::scenario as reference_scenario;
+pub(crate) use paths::waypoints as path_waypoints;
 pub(crate) use settings::flight as flight_settings;
 
 mod comparison;

@@ -11,7 +11,7 @@ use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{FlightLog, Waypoint};
 
 /// The reference: take-off into a climbing left-hand loop that turns the heading once around, and back.
-pub(super) fn waypoints() -> Vec<Waypoint> {
+pub(crate) fn waypoints() -> Vec<Waypoint> {
     let at = |time_s, position_m, velocity_m_s, yaw_rad| Waypoint {
         time_s,
         position_m,
