@@ -79,7 +79,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
     /// A key of the scenario that can't be changed.
-    #[error("--set {0}")]
+    #[error(transparent)]
     Key(#[from] KeyError),
     /// An argument that makes no sense.
     #[error("{0}")]

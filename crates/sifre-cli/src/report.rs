@@ -78,7 +78,7 @@ impl Report {
         );
         for event in &self.events {
             let time_s = event.time_ns as f64 * 1e-9;
-            text += &format!("  {time_s:9.3} s  {}: {}\n", event.agent, in_words(event));
+            text += &format!("  {time_s:9.3} s  {}\n", in_words(event));
         }
         for metric in &self.metrics {
             text += &format!("  {:40} {:>12.6}\n", metric.name, metric.value);
@@ -90,13 +90,15 @@ impl Report {
     }
 }
 
-fn in_words(event: &Event) -> String {
-    match &event.what {
+/// What happened, and to whom.
+pub(crate) fn in_words(event: &Event) -> String {
+    let what = match &event.what {
         sifre::AgentEvent::LevelChanged { from, to } => {
             format!("level {} to level {}", from.number(), to.number())
         }
         sifre::AgentEvent::TargetLost => "target lost".to_owned(),
         sifre::AgentEvent::TargetFound => "target found".to_owned(),
         sifre::AgentEvent::Note { text } => text.to_string(),
-    }
+    };
+    format!("{}: {what}", event.agent)
 }

@@ -125,6 +125,6 @@ impl Observer for Bar<'_> {
     }
 
     fn event(&mut self, event: &Event) {
-        self.bar.set_message(event.agent.clone());
+        self.bar.set_message(report::in_words(event));
     }
 }

@@ -101,6 +101,10 @@ impl Scenario {
         for file in &self.quadrotor {
             quadrotor::add(&mut built, self, file, files)?;
         }
+        if self.stop.arrived_within_m.is_some() && built.goals.len() < self.quadrotor.len() {
+            let note = "stop.arrived_within_m is never met: a quadrotor on a circle or following another never arrives";
+            built.notes.push(note.to_owned());
+        }
         for file in &self.ets {
             station::add(&mut built, own_seed(self.seed, &file.name), file, files)?;
         }

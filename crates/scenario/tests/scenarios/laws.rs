@@ -1,7 +1,7 @@
 //! Physics that must be right whatever the scenario: wind, ground, inertia.
 
-use crate::support::fly;
-use scenario::End;
+use crate::support::{fly, ready};
+use scenario::{End, Scenario};
 use sifre::RunStatus;
 
 /// Who hovers at level `level`, with more lines to it.
@@ -126,6 +126,23 @@ fn exact_ends() {
     let arrived = fly(&hover(3, "", "[stop]\narrived_within_m = 0.01"));
     assert_eq!(arrived.ending.end, End::Done);
     assert_eq!(arrived.ending.report.time_s, 0.0, "it begins where it is to be");
+    let circle = "reference = { kind = \"circle\", centre_m = [0, 0, -2], radius_m = 1, period_s = 9 }";
+    let hold = "reference = { kind = \"hold\", position_m = [0, 0, -2] }";
+    let never = hover(3, "", "[stop]\narrived_within_m = 0.01").replace(hold, circle);
+    let notes = Scenario::from_toml_str(&never, "test")
+        .unwrap()
+        .build(&())
+        .unwrap()
+        .notes;
+    assert!(notes[0].contains("never met"), "{notes:?}");
+
+    let lost = ready("lost-view") + "\n[stop]\nlost_target = true";
+    let flown = fly(&lost);
+    let found = flown.flight.simulation.events().last().unwrap();
+    assert_eq!(flown.ending.end, End::Early);
+    assert_eq!(found.what, sifre::AgentEvent::TargetLost);
+    // Seen at the next instant of anyone: the target's step of a millisecond.
+    assert!(flown.ending.report.time_s - found.time_ns as f64 * 1e-9 <= 1.001e-3);
 }
 
 /// The same scenario gives the same recording, and another seed another one.
