@@ -15,7 +15,7 @@ fn posed(
 
 /// The message of the refusal.
 fn refusal(change: impl FnOnce(&mut Mission, &mut Vec<Decision>, &mut Weights)) -> String {
-    posed(change).err().expect("it must be refused").to_string()
+    posed(change).expect_err("it must be refused").to_string()
 }
 
 #[test]
