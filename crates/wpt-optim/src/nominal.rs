@@ -5,7 +5,8 @@
 //! minima, north and south of the station, and a saddle between. Two settings are the project's own:
 //!
 //! - The pedestal's zero pan looks east, along the crossing, so that the 20° that cables keep from the pan axis lie to the
-//!   west, behind the start, and not across one of the two ways.
+//!   west and not across one of the two ways. Flights that start on one side of the station and pass it on the other do turn
+//!   through the west: they lose the target, and cost some hundred.
 //! - Position loops settle in 5 s, as the trajectories of chapter 6 do.
 
 use crate::condition::{Axis, Condition, Order, Side};

@@ -6,9 +6,9 @@ use crate::data::{Cell, DataTable};
 use crate::drawing::{DisplayTable, Drawing};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
-use crate::plot::style::{INK, Look, Marker};
+use crate::plot::style::{BLUE, INK, Look, Marker};
 use crate::plot::{Figure, Panel};
-use kuva::plot::{ColorMap, ContourPlot};
+use kuva::plot::ContourPlot;
 use kuva::render::plots::Plot;
 use quad_dynamics::Level;
 use wpt_optim::{Choice, Minimum, Surface};
@@ -19,8 +19,9 @@ pub(super) const ITEM: Item = Item {
     title: "Cost contours at every level, two variables, 20 s",
     description: "The cost *Φ* of crossing the station's field from [*x*_{0}, −5 m] to [*x*_{f}, 5 m] in 20 s, 3 m high, from rest to rest, \
                   over both variables: the ideal cost of a vehicle and a beam that are exactly where they should be, and the cost flown at each \
-                  level. Contours at 1.15, 1.2, 1.3, 1.5, 2, 3, 10 and 30; dots are minima of the grid. The station stands at the origin: paths near \
-                  the falling diagonal pass over it.",
+                  level. Contours at 1.15, 1.2, 1.3, 1.5, 2, 3, 10 and 30; dots are minima of the grid with their costs. The station stands at the origin: paths of \
+                  the falling diagonal pass over it. Empty corners are a plateau near 100: there the vehicle starts on one side and passes the station on \
+                  the other, through the west, where the cables stop the pan axis and the target is lost.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[SEVERAL],
@@ -31,6 +32,9 @@ const SEVERAL: Claim = Claim::holds("several local minima");
 
 /// Contours of the cost.
 const CONTOURS: [f64; 8] = [1.15, 1.2, 1.3, 1.5, 2.0, 3.0, 10.0, 30.0];
+
+/// Distance of a minimum's number above its dot, m.
+const LABEL_M: f64 = 0.4;
 
 const DOT: Look = Look::solid(INK, 1.4).marked(Marker::Circle);
 
@@ -43,13 +47,13 @@ fn panel(name: &str, first: &[f64], second: &[f64], costs: &[f64], minima: &[Min
     let (xs, ys) = (first.to_vec(), second.to_vec());
     let contours = CONTOURS.map(f64::log10);
     let [low, high] = [xs[0], xs[xs.len() - 1]];
-    Panel::new("*x*_{0}, m", "*x*_{f}, m")
+    let panel = Panel::new("*x*_{0}, m", "*x*_{f}, m")
         .kuva(move || {
             let plot = ContourPlot::new()
                 .with_grid(grid.clone(), xs.clone(), ys.clone())
                 .with_levels(&contours)
-                .with_filled()
-                .with_colormap(ColorMap::Viridis);
+                .with_line_color(BLUE)
+                .with_line_width(1.0);
             Plot::Contour(plot)
         })
         .markers("", DOT, minima.iter().map(|m| (m.at[0], m.at[1])))
@@ -57,7 +61,10 @@ fn panel(name: &str, first: &[f64], second: &[f64], costs: &[f64], minima: &[Min
         .y_range(low, high)
         .x_step(4.0)
         .y_step(4.0)
-        .caption(name)
+        .caption(name);
+    minima.iter().fold(panel, |panel, m| {
+        panel.annotate(m.at[0], m.at[1] + LABEL_M, format!("{:.3}", m.cost))
+    })
 }
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {

@@ -16,8 +16,8 @@ use wpt_optim::{Choice, Gradient, Surface};
 pub(super) const ITEM: Item = Item {
     id: "7.15",
     title: "Cost manifolds at every level, two variables, 20 s",
-    description: "The surfaces whose contours are figure 7.14, as log_{10} *Φ* over *x*_{0} and *x*_{f}, with the start *X*_{0} = [5, 5] m. The wall \
-                  between the two valleys is the path over the station. Beneath: cost and slope at the start, the slope by dual numbers through the whole \
+    description: "The surfaces whose contours are figure 7.14, as log_{10} *Φ* over *x*_{0} and *x*_{f}, with the start *X*_{0} = [5, 5] m. Between \
+                  the two valleys the path leads over the station; on the plateaus it leads through the west, where the pan axis stops. Beneath: cost and slope at the start, the slope by dual numbers through the whole \
                   flight.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
