@@ -4,12 +4,14 @@ use crate::item::Item;
 
 mod annealed;
 mod crossed;
+mod energy;
 mod figure_7_1;
 mod figure_7_2;
 mod figure_7_3;
 mod figure_7_5;
 mod figure_7_6;
 mod figure_7_7;
+mod figure_beyond_4;
 mod four_variables;
 mod global_minima;
 mod growth;
@@ -55,4 +57,5 @@ pub(super) const ITEMS: &[Item] = &[
     global_minima::TABLE_7_6,
     crossed::FIGURE_7_26,
     crossed::FIGURE_7_27,
+    figure_beyond_4::ITEM,
 ];
