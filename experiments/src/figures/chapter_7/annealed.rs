@@ -3,7 +3,7 @@
 //! Annealing ends near the bottom of a valley; the simplex then goes down to it, so that minima can be compared. Several walks, each
 //! with a seed of its own, because valleys differ by less than the cost of changing them; the best counts. Run once per process.
 
-use super::optimisations::{Case, Effort, Found, searched};
+use super::optimisations::{Case, Effort, Found, Once, searched};
 use crate::item::ItemError;
 use quad_dynamics::Level;
 use serde::Serialize;
@@ -138,8 +138,7 @@ pub(super) fn settings(effort: Effort) -> Settings {
 
 /// The global minimum found. Run at the first call.
 pub(super) fn minimum(global: Global, effort: Effort) -> Result<&'static Minimum, ItemError> {
-    static MINIMA: [[OnceLock<Result<Minimum, String>>; 2]; 4] =
-        [const { [const { OnceLock::new() }; 2] }; 4];
+    static MINIMA: [[Once<Minimum>; 2]; 4] = [const { [const { OnceLock::new() }; 2] }; 4];
     let cell = &MINIMA[global as usize][effort as usize];
     let found = cell.get_or_init(|| anneal(global, effort).map_err(|error| error.to_string()));
     found.as_ref().map_err(|message| ItemError::new(message.clone()))

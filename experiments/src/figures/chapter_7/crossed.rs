@@ -69,7 +69,7 @@ fn shade(t: f64) -> String {
 }
 
 /// A matrix with its numbers, the first row at the bottom.
-fn grid(caption: &str, values: &[Vec<f64>], digits: usize) -> Panel {
+fn grid(caption: &str, values: &[Vec<f64>], digits: i32) -> Panel {
     let mut panel = Panel::new("Flown at level", "Solution of level")
         .caption(caption)
         .x_categories(Level::ALL.map(|l| l.number().to_string()))
@@ -90,7 +90,11 @@ fn grid(caption: &str, values: &[Vec<f64>], digits: usize) -> Panel {
         .y_step(1.0);
     for (row, values) in values.iter().enumerate() {
         for (column, value) in values.iter().enumerate() {
-            panel = panel.annotate(column as f64 + 1.0, row as f64 + 0.9, format!("{value:.digits$}"));
+            // No minus before what rounds to zero.
+            let scale = 10_f64.powi(digits);
+            let value = (value * scale).round() / scale + 0.0;
+            let places = digits.unsigned_abs() as usize;
+            panel = panel.annotate(column as f64 + 1.0, row as f64 + 0.9, format!("{value:.places$}"));
         }
     }
     panel

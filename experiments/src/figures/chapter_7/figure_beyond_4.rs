@@ -10,7 +10,7 @@ use crate::drawing::Drawing;
 use crate::figures::sweep;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
-use crate::plot::style::{FAINT, GREY, INK, Look, Marker};
+use crate::plot::style::{GREY, INK, Look, Marker};
 use crate::plot::{Figure, Panel, series_style};
 
 /// The figure.
@@ -56,6 +56,16 @@ fn optimum(case: Case, effort: Effort) -> Result<(Supply, Vec<f64>), ItemError> 
 
 fn points(energies: &[Energy]) -> Vec<(f64, f64)> {
     energies.iter().map(|e| (e.missed, e.delivered)).collect()
+}
+
+/// The front as stairs: between two of its points nothing better than the left one is known.
+fn stairs(front: &[Energy]) -> Vec<(f64, f64)> {
+    let mut stairs = points(&front[..front.len().min(1)]);
+    for pair in front.windows(2) {
+        stairs.push((pair[1].missed, pair[0].delivered));
+        stairs.push((pair[1].missed, pair[1].delivered));
+    }
+    stairs
 }
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
@@ -122,7 +132,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             Look::solid(GREY, 0.6).marked(Marker::Dot),
             points(&on),
         )
-        .line("front", Look::solid(INK, 1.4), points(&front(&on)))
+        .line("front", Look::solid(INK, 1.4), stairs(&front(&on)))
         .markers(
             "",
             Look::solid(INK, 1.4).marked(Marker::Circle),
@@ -131,12 +141,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let mut gate = label(Panel::new("Energy missed, J", "Energy delivered, J"))
         .caption("laser off at a poor catch")
         .log_x()
-        .markers(
-            "crossings and shares",
-            Look::solid(FAINT, 0.6).marked(Marker::Dot),
-            points(&gated),
-        )
-        .line("front", Look::solid(INK, 1.4), points(&front(&gated)));
+        .markers("", Look::solid(GREY, 0.6).marked(Marker::Dot), points(&gated))
+        .line("front", Look::solid(INK, 1.4), stairs(&front(&gated)));
     for (name, supply, index, marker) in marks {
         let look = series_style(index).marked(marker);
         all = all.markers(name, look, points(&[supply.energy(0.0)]));

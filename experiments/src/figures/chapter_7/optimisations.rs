@@ -16,6 +16,9 @@ use wpt_optim::optimisers::{
 };
 use wpt_optim::{Choice, Decision, Objective, Problem};
 
+/// Made at the first call, for each effort; an error as its words, because errors can't be copied.
+pub(super) type Once<T> = OnceLock<Result<T, String>>;
+
 /// An optimisation of the chapter, at all levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Case {
@@ -233,8 +236,7 @@ impl Case {
 
     /// The searches of every level, level 1 first. Run at the first call.
     pub(super) fn solved(self, effort: Effort) -> Result<&'static [Solved], ItemError> {
-        static SOLVED: [[OnceLock<Result<Vec<Solved>, String>>; 2]; 6] =
-            [const { [const { OnceLock::new() }; 2] }; 6];
+        static SOLVED: [[Once<Vec<Solved>>; 2]; 6] = [const { [const { OnceLock::new() }; 2] }; 6];
         let solved = SOLVED[self as usize][effort as usize].get_or_init(|| {
             thread::scope(|scope| {
                 let levels = Level::ALL.map(|level| scope.spawn(move || self.solve(level, effort)));
