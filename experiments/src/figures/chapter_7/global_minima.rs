@@ -14,7 +14,8 @@ use std::thread;
 pub(super) const TABLE_7_6: Item = Item {
     id: "table-7.6",
     title: "Bounds and global minima of level 1 by simulated annealing",
-    description: "Simulated annealing over the box of each problem, then a simplex from where it ended, which annealing alone reaches only slowly. Beside it the \
+    description: "Simulated annealing over the box of each problem, then a simplex from where it ended, which annealing alone reaches only slowly; the best of three walks \
+                  with seeds of their own. Beside it the \
                   least minimum that any local search of level 1 found in the same problem.",
     kind: Kind::Table,
     origin: Origin::Simulated,
@@ -58,7 +59,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         "Minimum *Φ*",
         "Passes",
         "Least local minimum",
-        "Evaluations, walk + simplex",
+        "Walks ended at",
+        "Evaluations of all",
         "Time, s",
         "Walk ended",
         "Simplex ended",
@@ -82,7 +84,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         worst = worst.max(found.cost() - local);
         words.push(format!("{:+.1e} ({})", found.cost() - local, global.name()));
         let (walk, polish) = (&found.walk.report, &found.polish);
-        let time = (walk.elapsed + polish.elapsed).as_secs_f64();
+        let (time, evaluations) = (found.all.time_s, found.all.evaluations);
+        let ends: Vec<_> = found.all.costs.iter().map(|c| format!("{c:.5}")).collect();
         let side = basin(&problem, found.best())?;
         let bounds = |pick: fn(&wpt_optim::Decision) -> f64| {
             vector(&problem.decisions().iter().map(pick).collect::<Vec<_>>())
@@ -95,12 +98,12 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             format!("{:.5}", found.cost()),
             side.to_owned(),
             format!("{local:.5}"),
-            format!("{} + {}", walk.evaluations, polish.evaluations),
+            ends.join(", "),
+            evaluations.to_string(),
             format!("{time:.1}"),
             walk.stop.to_string(),
             polish.stop.to_string(),
         ]);
-        let evaluations = (walk.evaluations + polish.evaluations) as f64;
         for (decision, &value) in problem.decisions().iter().zip(found.best()) {
             data.push([
                 global.name().into(),
@@ -111,7 +114,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
                 found.cost().into(),
                 found.walk.cost().into(),
                 local.into(),
-                evaluations.into(),
+                (evaluations as f64).into(),
                 time.into(),
             ]);
         }

@@ -4,6 +4,7 @@ use crate::item::Item;
 
 mod annealed;
 mod crossed;
+mod energy;
 mod figure_7_1;
 mod figure_7_14;
 mod figure_7_15;
@@ -12,6 +13,7 @@ mod figure_7_3;
 mod figure_7_5;
 mod figure_7_6;
 mod figure_7_7;
+mod figure_beyond_4;
 mod four_variables;
 mod global_minima;
 mod growth;
@@ -61,4 +63,5 @@ pub(super) const ITEMS: &[Item] = &[
     crossed::FIGURE_7_27,
     figure_7_14::ITEM,
     figure_7_15::ITEM,
+    figure_beyond_4::ITEM,
 ];

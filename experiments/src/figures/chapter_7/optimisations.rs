@@ -16,6 +16,9 @@ use wpt_optim::optimisers::{
 };
 use wpt_optim::{Choice, Decision, Objective, Problem};
 
+/// Made at the first call, for each effort; an error as its words, because errors can't be copied.
+pub(super) type Once<T> = OnceLock<Result<T, String>>;
+
 /// An optimisation of the chapter, at all levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Case {
@@ -84,6 +87,8 @@ pub(super) struct Solved {
 
 /// Step of vehicle and station in short runs.
 const QUICK_STEP: StepSize = StepSize::MILLISECOND.times(4);
+/// Evaluations after which a search is given up: more than any should need.
+const MOST_EVALUATIONS: u64 = 1500;
 /// Share of each variable's width that the narrowed box keeps: *choice*.
 const NARROWED: f64 = 0.25;
 
@@ -214,13 +219,6 @@ impl Case {
         }
     }
 
-    fn most_evaluations(self, effort: Effort) -> u64 {
-        match effort {
-            Effort::Full => 1000,
-            Effort::Quick => 400,
-        }
-    }
-
     /// The settings, for the files beside the figures.
     pub(super) fn settings(self, effort: Effort) -> Result<Settings, ItemError> {
         let problem = self.problem(Level::One, effort)?;
@@ -229,7 +227,7 @@ impl Case {
             duration_s: mission.duration_s,
             step_s: mission.step.seconds(),
             station_step_s: mission.station_step.seconds(),
-            most_evaluations: self.most_evaluations(effort),
+            most_evaluations: MOST_EVALUATIONS,
             method: self.method(effort),
             starts: self.starts(&problem),
             variables: problem.decisions().to_vec(),
@@ -238,8 +236,7 @@ impl Case {
 
     /// The searches of every level, level 1 first. Run at the first call.
     pub(super) fn solved(self, effort: Effort) -> Result<&'static [Solved], ItemError> {
-        static SOLVED: [[OnceLock<Result<Vec<Solved>, String>>; 2]; 6] =
-            [const { [const { OnceLock::new() }; 2] }; 6];
+        static SOLVED: [[Once<Vec<Solved>>; 2]; 6] = [const { [const { OnceLock::new() }; 2] }; 6];
         let solved = SOLVED[self as usize][effort as usize].get_or_init(|| {
             thread::scope(|scope| {
                 let levels = Level::ALL.map(|level| scope.spawn(move || self.solve(level, effort)));
@@ -272,15 +269,18 @@ impl Case {
     }
 
     fn search(self, problem: &Problem, start: &[f64], effort: Effort) -> Result<Report, ItemError> {
-        let most = self.most_evaluations(effort);
         let variables = problem.variables();
         Ok(match self.method(effort) {
-            Method::Simplex(settings) => {
-                searched(&mut NelderMead::new(variables, start, settings)?, problem, most)?
-            }
-            Method::LineSearch(settings) => {
-                searched(&mut LineSearch::new(variables, start, settings)?, problem, most)?
-            }
+            Method::Simplex(settings) => searched(
+                &mut NelderMead::new(variables, start, settings)?,
+                problem,
+                MOST_EVALUATIONS,
+            )?,
+            Method::LineSearch(settings) => searched(
+                &mut LineSearch::new(variables, start, settings)?,
+                problem,
+                MOST_EVALUATIONS,
+            )?,
         })
     }
 }

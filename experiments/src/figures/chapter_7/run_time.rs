@@ -1,9 +1,10 @@
-//! Run time of one call of the cost at each level: the least of many, for all else that a machine does only adds to it.
+//! Run time of one call of the cost at each level: processor time of the calling thread, and of many calls the least, for all else that a
+//! machine does only adds to it.
 
 use super::optimisations::{Case, Effort};
 use crate::item::ItemError;
+use cpu_time::ThreadTime;
 use std::hint::black_box;
-use std::time::Instant;
 
 /// Rounds without a new least time after which it counts as found.
 const PATIENCE: u32 = 6;
@@ -23,9 +24,9 @@ pub(super) fn least_times(case: Case, effort: Effort) -> Result<Vec<f64>, ItemEr
     for _ in 0..MOST_ROUNDS {
         let mut news = false;
         for (least, level) in least.iter_mut().zip(solved) {
-            let began = Instant::now();
+            let began = ThreadTime::try_now()?;
             black_box(level.problem.evaluate(level.first().best())?);
-            let time = began.elapsed().as_secs_f64();
+            let time = began.try_elapsed()?.as_secs_f64();
             news |= time < (1.0 - NEWS) * *least;
             *least = least.min(time);
         }

@@ -43,13 +43,14 @@ pub(super) fn table(context: &Context, case: Case) -> Result<Drawing, ItemError>
         "evaluations",
         "time_s",
     ]);
-    let (mut searches, mut ended) = (0_usize, 0_usize);
+    let (mut searches, mut ended, mut north) = (0_usize, 0_usize, 0_usize);
     for solved in case.solved(effort)? {
         let level = solved.problem.level().number();
         for (k, found) in solved.searches.iter().enumerate() {
             let report = &found.report;
             let side = basin(&solved.problem, found.best())?;
             searches += 1;
+            north += usize::from(side == "north");
             let by_itself = matches!(
                 report.stop,
                 StopReason::Converged { .. } | StopReason::ScheduleDone
@@ -84,6 +85,10 @@ pub(super) fn table(context: &Context, case: Case) -> Result<Drawing, ItemError>
     Ok(Drawing::table(shown)
         .data(data.with_tolerance(SEARCHED).with_volatile("time_s"))
         .scenario(&case.settings(effort)?)?
+        .note(format!(
+            "{north} of {searches} searches end in minima whose crossing passes north of the station, {} south of it.",
+            searches - north
+        ))
         .check(ENDED, ended == searches, format!("{ended} of {searches}"))
         .note("Positions in m, velocities in m s^{−1}. A start and the solution are the decision vectors; *passes* is the side of the station on which the vehicle crosses *y* = 0, which tells the basins apart."))
 }

@@ -24,6 +24,11 @@ const SAMPLE_S: f64 = 0.04;
 /// Time between the beams drawn, as a share of the flight.
 const BEAMS: usize = 5;
 
+/// Least height of the picture, m.
+const HEIGHT_M: f64 = 3.5;
+/// Solutions whose variables all differ by less than this, in m and m/s, lie in one valley.
+const VALLEY: f64 = 0.5;
+
 /// A flight that is drawn.
 pub(super) struct Flown {
     /// The level.
@@ -50,17 +55,29 @@ fn flown(case: Case, effort: Effort) -> Result<Vec<Flown>, ItemError> {
     case.solved(effort)?.iter().map(fly).collect()
 }
 
+/// Whether a solution lies in the valley of level 1's, in words.
+fn valley(x: &[f64], first: &[f64]) -> &'static str {
+    let near = x.iter().zip(first).all(|(a, b)| (a - b).abs() < VALLEY);
+    if near {
+        ", in level 1's valley"
+    } else {
+        ", in another valley than level 1"
+    }
+}
+
 /// What each level found, in words.
 fn remarks(case: Case, effort: Effort) -> Result<Vec<String>, ItemError> {
+    let first = case.solved(effort)?[0].first().best();
     let remark = |solved: &Solved| -> Result<String, ItemError> {
         let (problem, found) = (&solved.problem, solved.first());
         let values: Vec<_> = found.best().iter().map(|x| format!("{x:.3}")).collect();
         Ok(format!(
-            "Level {}: *Φ* = {:.4} at [{}], passing {} of the station; {} evaluations, {:.1} s; {}.",
+            "Level {}: *Φ* = {:.4} at [{}], passing {} of the station{}; {} evaluations, {:.1} s; {}.",
             problem.level().number(),
             found.cost(),
             values.join(", "),
             basin(problem, found.best())?,
+            valley(found.best(), first),
             found.report.evaluations,
             found.report.elapsed.as_secs_f64(),
             found.report.stop
@@ -144,6 +161,12 @@ pub(super) fn paths(flown: &[Flown], station: [f64; 3]) -> Figure {
             elevation_deg: 26.0,
         });
     let mut plan = Panel::new("East *y*, m", "North *x*, m").equal_aspect();
+    let heights = flown
+        .iter()
+        .flat_map(|f| &f.histories.instants)
+        .map(|h| -h.position_m[2]);
+    // Down to the ground, and high enough for the ticks to stand apart.
+    space = space.range(2, 0.0, heights.fold(HEIGHT_M, f64::max));
     if let Some(flight) = flown.last() {
         let instants = &flight.histories.instants;
         for k in 0..=BEAMS {

@@ -1,0 +1,204 @@
+//! Figure beyond.4: crossings judged by the energy they deliver and the energy that misses the receiver.
+
+use super::energy::{Energy, Supply, front};
+use super::optimisations::{Case, Effort};
+use super::solution_table::vector;
+use super::solutions::{SEARCHED, every};
+use crate::claim::Claim;
+use crate::data::DataTable;
+use crate::drawing::Drawing;
+use crate::figures::sweep;
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::plot::figure::Legends;
+use crate::plot::style::{GREY, INK, Look, Marker};
+use crate::plot::{Figure, Panel, series_style};
+
+/// The figure.
+pub(super) const ITEM: Item = Item {
+    id: "beyond.4",
+    title: "Energy delivered and energy missed: the Pareto front of the crossings",
+    description: "Not in the source. Crossings in 20 s at level 5, on a grid over the box of the two variables: electrical energy delivered against optical \
+                  energy that passes the receiver, the hazard of overfill. (a) With the laser on all the time. (b) The best of them, with the laser \
+                  switched off while the receiver catches less than a given share of the light. Marked: the minimum of *Φ*, of two and of four variables.",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[NEAR, GATE],
+    make: Make::Draw(draw),
+};
+
+const NEAR: Claim = Claim::holds(
+    "no sampled crossing that misses no more energy than the Φ-optimum delivers one hundredth more",
+);
+const GATE: Claim = Claim::holds(
+    "off while the receiver catches less than 90 % of the light, the laser misses a hundredth of the energy and delivers all but 1 % of it, over all crossings",
+);
+
+/// Shares of the light below which the laser is switched off; 0: never.
+const SHARES: [f64; 12] = [0.0, 0.5, 0.7, 0.8, 0.85, 0.9, 0.93, 0.95, 0.97, 0.98, 0.99, 0.995];
+/// The share of claim GATE.
+const POOR: f64 = 0.9;
+/// Intervals of the grid along each variable.
+const GRID: u32 = 20;
+const GRID_QUICK: u32 = 8;
+
+/// The Φ-optimum of a case at level 5.
+fn optimum(case: Case, effort: Effort) -> Result<(Supply, Vec<f64>), ItemError> {
+    let solved = case
+        .solved(effort)?
+        .last()
+        .ok_or_else(|| ItemError::new("no level was searched"))?;
+    let best = solved.first().best();
+    Ok((
+        Supply::of(&solved.problem, best, every(&solved.problem))?,
+        best.to_vec(),
+    ))
+}
+
+fn points(energies: &[Energy]) -> Vec<(f64, f64)> {
+    energies.iter().map(|e| (e.missed, e.delivered)).collect()
+}
+
+/// The front as stairs: between two of its points nothing better than the left one is known.
+fn stairs(front: &[Energy]) -> Vec<(f64, f64)> {
+    let mut stairs = points(&front[..front.len().min(1)]);
+    for pair in front.windows(2) {
+        stairs.push((pair[1].missed, pair[0].delivered));
+        stairs.push((pair[1].missed, pair[1].delivered));
+    }
+    stairs
+}
+
+fn draw(context: &Context) -> Result<Drawing, ItemError> {
+    let effort = Effort::of(context.quick);
+    let solved = Case::TwoIn20
+        .solved(effort)?
+        .last()
+        .ok_or_else(|| ItemError::new("no level was searched"))?;
+    let problem = &solved.problem;
+    let steps = if context.quick { GRID_QUICK } else { GRID };
+    let [first, second] = problem.decisions() else {
+        return Err(ItemError::new("the grid needs two variables"));
+    };
+    let decisions: Vec<Vec<f64>> = sweep(first.lower, first.upper, steps)
+        .iter()
+        .flat_map(|&a| {
+            sweep(second.lower, second.upper, steps)
+                .into_iter()
+                .map(move |b| vec![a, b])
+        })
+        .collect();
+    let supplies = Supply::of_all(problem, &decisions, every(problem))?;
+    let on: Vec<Energy> = supplies.iter().map(|s| s.energy(0.0)).collect();
+    let gated: Vec<Energy> = SHARES
+        .iter()
+        .flat_map(|&share| supplies.iter().map(move |s| s.energy(share)))
+        .collect();
+    let (two, at) = optimum(Case::TwoIn20, effort)?;
+    let (four, _) = optimum(Case::Four, effort)?;
+    let track = |supply: &Supply| SHARES.map(|share| supply.energy(share));
+    let best = two.energy(0.0);
+    let no_worse = on.iter().filter(|e| e.missed <= best.missed).map(|e| e.delivered);
+    let gain = no_worse.fold(best.delivered, f64::max) / best.delivered - 1.0;
+    let nearer = on.iter().filter(|e| e.dominates(&best)).count();
+    let total = |share: f64| {
+        let sum = |sum: Energy, e: Energy| Energy {
+            delivered: sum.delivered + e.delivered,
+            missed: sum.missed + e.missed,
+        };
+        let energies = supplies.iter().map(|s| s.energy(share));
+        energies.fold(
+            Energy {
+                delivered: 0.0,
+                missed: 0.0,
+            },
+            sum,
+        )
+    };
+    let (always, gated_at) = (total(0.0), total(POOR));
+    let (kept, left) = (
+        gated_at.delivered / always.delivered,
+        gated_at.missed / always.missed,
+    );
+    let marks = [
+        ("*Φ*-optimum, two variables", &two, 1, Marker::Square),
+        ("*Φ*-optimum, four variables", &four, 2, Marker::Triangle),
+    ];
+    let label = |panel: Panel| panel.y_include(0.0);
+    let mut all = label(Panel::new("Energy missed, J", "Energy delivered, J"))
+        .caption("laser always on")
+        .x_range(-4.0, 104.0)
+        .markers(
+            "crossings",
+            Look::solid(GREY, 0.6).marked(Marker::Dot),
+            points(&on),
+        )
+        .line("front", Look::solid(INK, 1.4), stairs(&front(&on)))
+        .markers(
+            "",
+            Look::solid(INK, 1.4).marked(Marker::Circle),
+            points(&front(&on)),
+        );
+    let mut gate = label(Panel::new("Energy missed, J", "Energy delivered, J"))
+        .caption("laser off at a poor catch")
+        .log_x()
+        .markers("", Look::solid(GREY, 0.6).marked(Marker::Dot), points(&gated))
+        .line("front", Look::solid(INK, 1.4), stairs(&front(&gated)));
+    for (name, supply, index, marker) in marks {
+        let look = series_style(index).marked(marker);
+        all = all.markers(name, look, points(&[supply.energy(0.0)]));
+        gate = gate
+            .line("", look, points(&track(supply)))
+            .markers(name, look, points(&track(supply)));
+    }
+    let mut data = DataTable::new(["x_0_m", "x_f_m", "share", "delivered_j", "missed_j"]);
+    for (x, supply) in decisions.iter().zip(&supplies) {
+        for share in SHARES {
+            let e = supply.energy(share);
+            data.push([
+                x[0].into(),
+                x[1].into(),
+                share.into(),
+                e.delivered.into(),
+                e.missed.into(),
+            ]);
+        }
+    }
+    let mut optima =
+        DataTable::new(["variables", "share", "delivered_j", "missed_j"]).with_tolerance(SEARCHED);
+    for (name, supply) in [("two", &two), ("four", &four)] {
+        for share in SHARES {
+            let e = supply.energy(share);
+            optima.push([name.into(), share.into(), e.delivered.into(), e.missed.into()]);
+        }
+    }
+    let figure = Figure::columns(2)
+        .legends(Legends::Common)
+        .panel_size(320.0, 260.0)
+        .panel(all)
+        .panel(gate);
+    Ok(Drawing::picture(figure.draw())
+        .data(data)
+        .named_data("optima", optima)
+        .scenario(&Case::TwoIn20.settings(effort)?)?
+        .check(
+            NEAR,
+            gain < 0.01,
+            format!(
+                "the Φ-optimum {} delivers {:.2} J and misses {:.1e} J; {nearer} of {} crossings are better in both, the best of them by {:.2} % of energy",
+                vector(&at),
+                best.delivered,
+                best.missed,
+                on.len(),
+                1e2 * gain
+            ),
+        )
+        .check(
+            GATE,
+            kept > 0.99 && left < 0.01,
+            format!("{:.2} % of the energy delivered and {:.3} % of that missed are left", 1e2 * kept, 1e2 * left),
+        )
+        .note(
+            "With the laser always on the two energies add up to what the air lets through, so a crossing that delivers more misses less: the front is a corner, \
+             and Φ, which weighs no energy at all, leads into it. A conflict arises once the laser may be switched off.",
+        ))
+}
