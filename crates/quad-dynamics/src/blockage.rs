@@ -7,13 +7,13 @@
 //! ```
 //!
 //! with thrust T, disc area A = π R², climb V_c through the air along −z_B, arm width b and distance d of the arm below the
-//! disc. κ is the contraction of the slipstream on the axis of a vortex cylinder: 1 in the disc, 2 far below. Each
+//! disc. κ is the acceleration of the slipstream, on the axis of a vortex cylinder: 1 in the disc, 2 far below. Each
 //! arm blocks one radius of its own rotor. The free-stream part is taken off, since the airframe's drag has it already. In
 //! hover D is the fixed share `C_D κ² S / (4 A)` of the thrust. The torque stays as it is.
 //!
-//! Valid in hover, climb, and descent slower than the hover's induced velocity (5 m/s on the Qball-X4), at forward
-//! speeds below that; beyond, momentum theory has no answer. Source: J. G. Leishman, Principles of Helicopter Aerodynamics, 2nd
-//! ed., 2006, sections 2.2, 2.4 (induced velocity) and 5.6 (download of the fuselage); S. F. Hoerner, Fluid-Dynamic Drag,
+//! Valid in hover and climb, at forward speeds below the hover's induced velocity (5 m/s on the Qball-X4). In descent up to twice
+//! that momentum theory has no answer: the climb's curve is continued. Source: J. G. Leishman, Principles of Helicopter Aerodynamics, 2nd
+//! ed., 2006, chapters 2 (induced velocity) and 6 (download of the fuselage); S. F. Hoerner, Fluid-Dynamic Drag,
 //! 1965 (C_D); that there is blockage: thesis 3.7. The one-arm strip is this project's choice.
 
 use crate::{BuildError, Vehicle};
@@ -31,8 +31,8 @@ pub struct Blockage<R: Real> {
     pub drag: R,
     /// `1 / (2 ρ A)`, m²/(N s²): thrust to the square of the induced velocity in hover.
     pub induced: R,
-    /// Contraction κ of the slipstream at the arm, dimensionless, 1 to 2.
-    pub contraction: R,
+    /// Velocity κ of the slipstream at the arm over that in the disc, dimensionless, 1 to 2.
+    pub acceleration: R,
 }
 
 impl<R: Real> Blockage<R> {
@@ -49,7 +49,7 @@ impl<R: Real> Blockage<R> {
         Ok(Self {
             drag: constant(0.5 * density * arms.drag_coefficient * arms.width * radius),
             induced: constant(0.5 / (density * disc)),
-            contraction: constant(1.0 + arms.drop / arms.drop.hypot(radius)),
+            acceleration: constant(1.0 + arms.drop / arms.drop.hypot(radius)),
         })
     }
 
@@ -63,14 +63,14 @@ impl<R: Real> Blockage<R> {
 
     /// Share of the thrust that is lost in hover, `C_D κ² S / (4 A)`; NaN where nothing would be left.
     pub fn share_in_hover(&self) -> R {
-        let share = self.drag * self.contraction * self.contraction * self.induced;
+        let share = self.drag * self.acceleration * self.acceleration * self.induced;
         share.simd_lt(R::one()).if_else(|| share, || constant(f64::NAN))
     }
 
     /// Thrust lost to an arm D, N along z_B, positive down.
     #[inline(always)]
     pub fn download(&self, thrust: R, climb: R) -> R {
-        let slipstream = climb + self.contraction * self.induced_velocity(thrust, climb);
+        let slipstream = climb + self.acceleration * self.induced_velocity(thrust, climb);
         self.drag * (slipstream.simd_abs() * slipstream - climb.simd_abs() * climb)
     }
 }
@@ -107,8 +107,8 @@ mod tests {
     /// In hover the download is the same share of any thrust, `C_D κ² S / (4 A)`.
     #[test]
     fn exact_share_of_the_thrust_in_hover() {
-        let contraction = 1.0 + 0.03 / (0.03_f64 * 0.03 + 0.127 * 0.127).sqrt();
-        let share = 1.2 * contraction * contraction * 0.02 / (4.0 * std::f64::consts::PI * 0.127);
+        let acceleration = 1.0 + 0.03 / (0.03_f64 * 0.03 + 0.127 * 0.127).sqrt();
+        let share = 1.2 * acceleration * acceleration * 0.02 / (4.0 * std::f64::consts::PI * 0.127);
         assert_relative_eq!(share, 0.022_74, epsilon = 5e-5);
         for thrust in [0.1, 3.4335, 8.0] {
             assert_relative_eq!(

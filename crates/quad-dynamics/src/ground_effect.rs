@@ -69,7 +69,7 @@ mod tests {
 
     /// The values that Cheeseman and Bennett's formula takes, worked out apart from this code.
     #[test]
-    fn data_gain_at_published_heights() {
+    fn exact_gain_at_published_heights() {
         // Printed to five decimals.
         for (height, gain) in [(0.5, 1.33333), (1.0, 1.06667), (2.0, 1.01587), (4.0, 1.00392)] {
             assert_relative_eq!(GroundEffect::<f64>::gain(height), gain, epsilon = 5e-6);

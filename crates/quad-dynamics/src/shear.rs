@@ -13,6 +13,9 @@
 use quad_math::{Real, constant};
 use serde::{Deserialize, Serialize};
 
+/// Least height over the reference height that the power law is evaluated at.
+const LOWEST: f64 = 1e-12;
+
 /// How the wind grows with height.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "law", deny_unknown_fields)]
@@ -97,7 +100,7 @@ impl Shear {
                     reference_height_m,
                 })
             }
-            ShearProfile::Power { exponent } if !(0.0..=1.0).contains(&exponent) => {
+            ShearProfile::Power { exponent } if !(exponent > 0.0 && exponent <= 1.0) => {
                 Err(ShearError::Exponent { exponent })
             }
             _ => Ok(()),
@@ -112,8 +115,10 @@ impl Shear {
                 ratio.simd_ln() / constant((self.reference_height_m / roughness_m).ln())
             }
             ShearProfile::Power { exponent } => {
-                let ratio = (height / constant(self.reference_height_m)).simd_max(R::zero());
-                ratio.simd_powf(constant(exponent))
+                // The root's slope is infinite on the ground: dual numbers stay off it.
+                let ratio = height / constant(self.reference_height_m);
+                let power = ratio.simd_max(constant(LOWEST)).simd_powf(constant(exponent));
+                R::zero().select(height.simd_le(R::zero()), power)
             }
         }
     }

@@ -91,11 +91,13 @@ pub enum EstimationError {
     Diverged,
     /// The spread of an unscented filter's points.
     #[error(
-        "an unscented filter's points need 0 < alpha ≤ 1 and alpha² (n + kappa) > 0, not alpha = {alpha}, kappa = {kappa}, n = {n}"
+        "an unscented filter's points need 0 < alpha ≤ 1 and alpha² (n + kappa) > 0, and a finite beta, not alpha = {alpha}, beta = {beta}, kappa = {kappa}, n = {n}"
     )]
     BadSpread {
         /// α.
         alpha: f64,
+        /// β.
+        beta: f64,
         /// κ.
         kappa: f64,
         /// Size of the error state.

@@ -121,7 +121,7 @@ impl<F: Filter<Process = LevelProcess>> Estimator<F> {
             measurements: Vec::new(),
         });
         // The instant at or before the memory's end stays: measurements up to there can be filed behind it.
-        while self.epochs.len() > 1 && self.epochs[1].time_ns + self.memory_ns <= self.now_ns {
+        while self.epochs.len() > 1 && self.now_ns - self.epochs[1].time_ns >= self.memory_ns {
             self.epochs.pop_front();
         }
         Ok(())

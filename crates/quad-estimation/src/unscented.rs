@@ -92,7 +92,12 @@ impl<P: Process> UnscentedFilter<P> {
         let n = process.error_len();
         let width = alpha * alpha * (n as f64 + kappa);
         if !(alpha > 0.0 && alpha <= 1.0 && beta.is_finite() && width.is_finite() && width > 0.0) {
-            return Err(EstimationError::BadSpread { alpha, kappa, n });
+            return Err(EstimationError::BadSpread {
+                alpha,
+                beta,
+                kappa,
+                n,
+            });
         }
         let belief = checked(&process, belief)?;
         Ok(Self {

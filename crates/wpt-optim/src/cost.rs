@@ -29,6 +29,9 @@ use serde::{Deserialize, Serialize};
 /// Ratio Q to a limit beyond which a term grows with the logarithm only.
 pub const BEND: f64 = 3.0;
 
+/// Greatest weight: seven terms of at most a hundred each stay below [`FAILURE`]. Weights count relative to each other.
+pub const HEAVIEST: f64 = 100.0;
+
 /// What each instant costs after a flight has failed: more than any instant of a flight that has not.
 pub const FAILURE: f64 = 1e5;
 
@@ -197,6 +200,13 @@ fn check(key: &'static str, value: f64, positive: bool) -> Result<f64, ProblemEr
     }
 }
 
+fn weight(key: &'static str, value: f64) -> Result<f64, ProblemError> {
+    if value > HEAVIEST {
+        return Err(ProblemError::TooHeavy { key, value });
+    }
+    check(key, value, false)
+}
+
 /// Half of the camera's narrower angle of view, rad.
 fn view_limit(station: &Station) -> f64 {
     let camera = &station.camera;
@@ -224,13 +234,13 @@ impl Cost<f64> {
         };
         Ok(Self {
             weights: [
-                check("weights.range", weights.range, false)?,
-                check("weights.incidence", weights.incidence, false)?,
-                check("weights.spot", weights.spot, false)?,
-                check("penalties.lost_target", penalties.lost_target, false)?,
-                check("penalties.overfill", penalties.overfill, false)?,
-                check("penalties.ground", penalties.ground, false)?,
-                check("penalties.saturation", penalties.saturation, false)?,
+                weight("weights.range", weights.range)?,
+                weight("weights.incidence", weights.incidence)?,
+                weight("weights.spot", weights.spot)?,
+                weight("penalties.lost_target", penalties.lost_target)?,
+                weight("penalties.overfill", penalties.overfill)?,
+                weight("penalties.ground", penalties.ground)?,
+                weight("penalties.saturation", penalties.saturation)?,
             ],
             range_limit: check("limits.range", station.limits.range, true)?,
             incidence_limit: check("limits.incidence", station.limits.incidence, true)?,

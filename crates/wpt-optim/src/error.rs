@@ -1,6 +1,7 @@
 //! What can be wrong with a question.
 
 use crate::condition::Condition;
+use crate::cost::HEAVIEST;
 use ets::ClockError;
 use quad_dynamics::BuildError;
 use quad_math::{GridError, SegmentError};
@@ -57,6 +58,16 @@ pub enum ProblemError {
         value: f64,
         /// Whether zero is refused too.
         positive: bool,
+    },
+    /// A weight so great that flying badly would cost more than not flying.
+    #[error(
+        "{key} = {value}: weights up to {HEAVIEST} are allowed; scale all of them, since they count relative to each other"
+    )]
+    TooHeavy {
+        /// Which, as in `weights.range`.
+        key: &'static str,
+        /// Its value.
+        value: f64,
     },
     /// A decision vector of another length.
     #[error("a decision vector of {found} numbers, but there are {expected} variables")]

@@ -13,7 +13,7 @@ use quad_dynamics::Flight;
 impl Problem {
     /// The ideal cost of a decision, sampled at the station's instants like a flight's.
     ///
-    /// The gimbal points wherever the receiver is, within its travel; commands are those of hover, so nothing saturates.
+    /// The gimbal points wherever the receiver is, within its travel; commands lie in the middle of their limits, so nothing saturates.
     ///
     /// # Errors
     /// As [`Problem::evaluate`].

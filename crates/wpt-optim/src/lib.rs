@@ -73,7 +73,7 @@ pub mod selection;
 mod surface;
 
 pub use condition::{Axis, Condition, Order, Side, UnknownCondition};
-pub use cost::{BEND, FAILURE, LOST_M, Penalties, Terms, Weights};
+pub use cost::{BEND, FAILURE, HEAVIEST, LOST_M, Penalties, Terms, Weights};
 pub use decision::Decision;
 pub use engine::{EngineError, QUADROTOR, STATION};
 pub use error::ProblemError;

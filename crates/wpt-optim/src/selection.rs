@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_input_is_told() {
+    fn exact_bad_input_is_told() {
         let good = answers([1.0; 5], [1.0; 5]);
         let told = |answers: &[Answer], tolerance| select(answers, tolerance).unwrap_err().to_string();
         assert!(told(&good[..4], WITHIN_A_TENTH).contains("level 5 is not among"));

@@ -16,7 +16,7 @@ pub enum Quality {
     Good,
     /// The same on a vibrating airframe, half calibrated; fixes to a decimetre, 5 Hz, 50 ms late.
     Poor,
-    /// What still flies: five times worse again; fixes to half a metre, 1 Hz, 200 ms late, every fifth lost.
+    /// What still flies: two to five times worse again; fixes to half a metre, 1 Hz, 200 ms late, every fifth lost.
     VeryPoor,
 }
 

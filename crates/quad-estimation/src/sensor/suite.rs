@@ -89,7 +89,7 @@ impl SensorSuite {
     ) -> Vec<Measurement> {
         for (i, sensor) in self.sensors.iter().enumerate() {
             if now_ns >= state.next_ns[i] {
-                state.next_ns[i] += sensor.period_ns().max(1);
+                state.next_ns[i] = state.next_ns[i].saturating_add(sensor.period_ns().max(1));
                 let taken = sensor.take(&mut state.biases[i], now_ns, seen, generator);
                 state.pending.extend(taken);
             }
@@ -138,7 +138,7 @@ impl Sensor {
         arrives.then(|| Measurement {
             instrument: self.instrument,
             taken_ns: now_ns,
-            arrives_ns: now_ns + self.delay_ns(),
+            arrives_ns: now_ns.saturating_add(self.delay_ns()),
             values,
             deviation: self.deviation(),
         })

@@ -107,13 +107,6 @@ fn prop_level_5_is_flown_by_its_estimates() {
     ] {
         for level in [Level::Three, Level::Five] {
             let flown = fly(level, quality, which, 5);
-            println!(
-                "{level} in {} sensors: tracks to {:.3} m, errs by {:.3} m and says {:.3} m",
-                quality.name(),
-                flown.tracking,
-                flown.position,
-                flown.stated
-            );
             assert!(flown.position < allowed);
             let ratio = flown.position / flown.stated;
             assert!((0.5..2.0).contains(&ratio), "{level}: {ratio}");

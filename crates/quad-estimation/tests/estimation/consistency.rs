@@ -1,7 +1,7 @@
 //! Consistency over many seeds: with a matched model the errors are as large as the filter says, no larger and no smaller.
 //!
-//! The sum of the normalised squares over independent flights is χ²; each test asks for the central 99.9 %, so that the dozen of them
-//! fails once in a hundred choices of seeds, and seeds are fixed.
+//! The sum of the normalised squares over independent flights is χ²; each test asks for the central 99.9 %, so that the eighteen of them
+//! fail once in some fifty choices of seeds, and seeds are fixed.
 
 use crate::matched::{Told, fly};
 use quad_dynamics::Level;
@@ -14,7 +14,6 @@ const STEPS: usize = 150;
 fn assert_chi_squared(what: &str, sum: f64, freedom: usize) {
     let chi = ChiSquared::new(freedom as f64).expect("positive");
     let (low, high) = (chi.inverse_cdf(0.0005), chi.inverse_cdf(0.9995));
-    println!("{what}: {sum:.1} of {freedom}, from {low:.1} to {high:.1}");
     assert!(
         (low..high).contains(&sum),
         "{what}: {sum:.1} of {freedom} is not within {low:.1} to {high:.1}"

@@ -5,7 +5,7 @@
 use super::Row;
 use crate::exit::Failure;
 use std::fs::{self, File, OpenOptions};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 /// An open journal.
@@ -27,13 +27,11 @@ impl Journal {
     /// Opens the journal of a table, and reads what it has of this sweep.
     pub(crate) fn open(out: &Path, fingerprint: &str, restart: bool) -> Result<Self, Failure> {
         let path = path_of(out);
-        let mut text = if restart {
+        let text = if restart {
             String::new()
         } else {
-            fs::read_to_string(&path).unwrap_or_default()
+            whole_lines(&path)?
         };
-        // What is not a whole line was being written when the program ended.
-        text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
         let header = serde_json::json!({ "sifre_sweep": fingerprint }).to_string();
         let mut lines = text.lines();
         match lines.next() {
@@ -52,17 +50,17 @@ impl Journal {
             path: path.clone(),
             source,
         };
-        let mut file = OpenOptions::new()
-            .create(true)
-            .write(true)
-            .truncate(true)
-            .open(&path)
-            .map_err(refuse)?;
         let mut whole = format!("{header}\n");
         for row in &rows {
             whole += &line(row);
         }
-        file.write_all(whole.as_bytes()).map_err(refuse)?;
+        // Beside it first: whenever the program ends, one of the two is whole.
+        let mut fresh = path.as_os_str().to_owned();
+        fresh.push(".new");
+        fs::write(&fresh, whole)
+            .and_then(|()| fs::rename(&fresh, &path))
+            .map_err(refuse)?;
+        let file = OpenOptions::new().append(true).open(&path).map_err(refuse)?;
         Ok(Self { rows, path, file })
     }
 
@@ -85,7 +83,50 @@ impl Journal {
     }
 }
 
+/// The whole lines of a journal, none if there is no journal: what follows the last of them was being written when the
+/// program ended.
+fn whole_lines(path: &Path) -> Result<String, Failure> {
+    let read = |source| Failure::Read {
+        path: path.to_owned(),
+        source,
+    };
+    let mut bytes = match fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+        Err(error) => return Err(read(error)),
+    };
+    bytes.truncate(
+        bytes
+            .iter()
+            .rposition(|byte| *byte == b'\n')
+            .map_or(0, |end| end + 1),
+    );
+    String::from_utf8(bytes).map_err(|_| {
+        Failure::Usage(format!(
+            "{} is damaged: give --restart to begin anew, or another --out",
+            path.display()
+        ))
+    })
+}
+
 fn line(row: &Row) -> String {
     // Numbers in rows are finite or absent, so there is nothing that JSON can't hold.
     serde_json::to_string(row).map_or_else(|_| String::new(), |text| text + "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_a_line_cut_inside_a_letter_costs_that_line_only() {
+        let out = std::env::temp_dir().join(format!("sifre-journal-{}.csv", std::process::id()));
+        let path = path_of(&out);
+        fs::write(&path, b"{\"whole\":1}\n{\"name\":\"\xc3").unwrap();
+        assert_eq!(whole_lines(&path).unwrap(), "{\"whole\":1}\n");
+        fs::write(&path, b"\xff\n").unwrap();
+        assert!(whole_lines(&path).unwrap_err().to_string().contains("damaged"));
+        fs::remove_file(&path).unwrap();
+        assert_eq!(whole_lines(&path).unwrap(), "");
+    }
 }

@@ -187,6 +187,8 @@ impl Simplex {
     fn sigma(&self, n: f64) -> f64 {
         match self.settings.coefficients {
             Coefficients::Standard => 0.5,
+            // For one variable theirs would be nought, and every shrinkage the end.
+            Coefficients::Adaptive if n < 2.0 => 0.5,
             Coefficients::Adaptive => 1.0 - 1.0 / n,
         }
     }

@@ -43,6 +43,7 @@ fn exact_errors_of_the_mission_and_weights() {
     assert!(refusal(|m, _, _| m.station.limits.range = 0.0).contains("limits.range = 0"));
     assert!(refusal(|_, _, w| w.spot = -1.0).contains("weights.spot = -1"));
     assert!(refusal(|_, _, w| w.range = f64::NAN).contains("weights.range = NaN"));
+    assert!(refusal(|_, _, w| w.range = 1e308).contains("weights up to 100"));
 }
 
 #[test]
