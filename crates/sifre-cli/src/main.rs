@@ -11,6 +11,7 @@ mod levels;
 mod measure;
 mod model;
 mod new;
+mod optimise;
 mod plot;
 mod recorder;
 mod report;
@@ -57,6 +58,8 @@ enum What {
     SelectLevel(select_level::Arguments),
     /// Which phenomenon makes the difference between neighbouring levels.
     Attribute(attribute::Arguments),
+    /// Find the values of a scenario's keys that cost least; an interrupted search goes on where it was.
+    Optimise(optimise::Arguments),
     /// Fly a scenario many times with keys varied, on a grid or at random; an interrupted sweep goes on where it was.
     Sweep(sweep::Arguments),
     /// Draw a recording.
@@ -83,6 +86,7 @@ fn main() -> ExitCode {
         What::Levels(arguments) => levels::run(&arguments, json),
         What::SelectLevel(arguments) => select_level::run(&arguments, json),
         What::Attribute(arguments) => attribute::run(&arguments, json),
+        What::Optimise(arguments) => optimise::run(&arguments, json),
         What::Sweep(arguments) => sweep::run(&arguments, json),
         What::Plot(arguments) => plot::run(&arguments, json),
         What::Animate(arguments) => animate::run(&arguments, json),
