@@ -63,7 +63,7 @@ pub struct History {
 
 impl Outcome {
     pub(crate) fn of(tally: &Tally<f64>, duration_s: f64) -> Self {
-        let failure = (tally.failed > 0.0).then(|| Failure {
+        let failure = (tally.failed > 0.0).then_some(Failure {
             time_s: duration_s * (1.0 - tally.failed),
         });
         Self {
