@@ -21,3 +21,14 @@ pub(crate) fn write(path: &Path, figure: &Figure) -> Result<(), Failure> {
         ))),
     }
 }
+
+/// Refuses a path that no picture can be written to, before anything is flown.
+pub(crate) fn check(path: &Path) -> Result<(), Failure> {
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("png" | "svg") => Ok(()),
+        _ => Err(Failure::Usage(format!(
+            "{}: a picture ends in .svg or .png",
+            path.display()
+        ))),
+    }
+}

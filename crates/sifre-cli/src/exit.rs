@@ -84,6 +84,9 @@ pub(crate) enum Failure {
     /// An argument that makes no sense.
     #[error("{0}")]
     Usage(String),
+    /// A flight that had to come to its end and did not.
+    #[error("{0}")]
+    Flight(String),
     /// A recording that can't be begun or finished.
     #[error("{}: {source}", path.display())]
     Recording {
@@ -99,6 +102,7 @@ impl Failure {
     pub(crate) const fn exit(&self) -> Exit {
         match self {
             Self::Write { .. } => Exit::NotWritten,
+            Self::Flight(_) => Exit::Early,
             Self::Recording { source, .. } => match source {
                 sifre::BlackBoxError::NothingSelected { .. } => Exit::BadInput,
                 _ => Exit::NotWritten,

@@ -8,10 +8,10 @@
 use crate::disk::Beside;
 use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, Template, setting};
-use crate::{drawing, interrupt, report};
+use crate::{drawing, interrupt, model, report};
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
-use quad_dynamics::{Level, Phenomenon};
+use quad_dynamics::Level;
 use quad_kinematics::EulerAngles;
 use quad_plot::figure::Legends;
 use quad_plot::{Figure, Panel, level_name, level_style};
@@ -59,16 +59,13 @@ struct Difference {
 /// Flies a scenario at all levels.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
-    if scenario.quadrotor.is_empty() {
-        return Err(Failure::Usage(
-            "there is no quadrotor in it: only quadrotors have levels".to_owned(),
-        ));
-    }
+    model::check(&scenario)?;
     interrupt::listen();
     let files = Beside::of(&arguments.scenario);
     let mut flights = Vec::new();
     for level in Level::ALL {
-        let scenario = at_level(&scenario, level, arguments.keep_controllers);
+        let laws = model::laws(&scenario, level, arguments.keep_controllers);
+        let scenario = model::at(&scenario, level, None, &laws);
         let flown = fly(&scenario, level, &files)?;
         let is_interrupted = flown.end == End::Interrupted;
         flights.push((scenario, flown));
@@ -98,26 +95,6 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     }
     let all_done = flights.iter().all(|(_, flown)| flown.end == End::Done);
     Ok(if all_done { Exit::Done } else { Exit::Early })
-}
-
-/// The scenario with every quadrotor at a level, with that level's own phenomena, from start to end.
-fn at_level(scenario: &Scenario, level: Level, keep: bool) -> Scenario {
-    let mut scenario = scenario.clone();
-    for quadrotor in &mut scenario.quadrotor {
-        let given = quadrotor.controller.kind.at(quadrotor.level);
-        quadrotor.level = level;
-        quadrotor.phenomena = None;
-        quadrotor.level_changes.clear();
-        quadrotor.level_rule = None;
-        if !level.phenomena().contains(Phenomenon::Drag) {
-            // What moves in the air is not felt without drag.
-            quadrotor.wind.shear = None;
-            quadrotor.wind.turbulence = None;
-        }
-        let kept = keep && given.lowest_level() <= level;
-        quadrotor.controller.kind = if kept { given } else { Law::Paired.at(level) };
-    }
-    scenario
 }
 
 fn fly(scenario: &Scenario, level: Level, files: &dyn Files) -> Result<Flown, Failure> {

@@ -1,18 +1,23 @@
 //! `sifre`: the command line of the simulation engine.
 
 mod animate;
+mod attribute;
 mod disk;
 mod doctor;
 mod drawing;
 mod exit;
 mod interrupt;
 mod levels;
+mod measure;
+mod model;
 mod new;
+mod optimise;
 mod plot;
 mod recorder;
 mod report;
 mod run;
 mod schema;
+mod select_level;
 mod sweep;
 mod varied;
 
@@ -49,6 +54,12 @@ enum What {
     Run(run::Arguments),
     /// Fly a scenario at all five levels of resolution and compare them.
     Levels(levels::Arguments),
+    /// Which level of resolution is enough: the cheapest that agrees with level 5 on what you ask.
+    SelectLevel(select_level::Arguments),
+    /// Which phenomenon makes the difference between neighbouring levels.
+    Attribute(attribute::Arguments),
+    /// Find the values of a scenario's keys that cost least; an interrupted search goes on where it was.
+    Optimise(optimise::Arguments),
     /// Fly a scenario many times with keys varied, on a grid or at random; an interrupted sweep goes on where it was.
     Sweep(sweep::Arguments),
     /// Draw a recording.
@@ -73,6 +84,9 @@ fn main() -> ExitCode {
     let outcome = match what {
         What::Run(arguments) => run::run(&arguments, json),
         What::Levels(arguments) => levels::run(&arguments, json),
+        What::SelectLevel(arguments) => select_level::run(&arguments, json),
+        What::Attribute(arguments) => attribute::run(&arguments, json),
+        What::Optimise(arguments) => optimise::run(&arguments, json),
         What::Sweep(arguments) => sweep::run(&arguments, json),
         What::Plot(arguments) => plot::run(&arguments, json),
         What::Animate(arguments) => animate::run(&arguments, json),

@@ -2,6 +2,8 @@
 
 use crate::disk;
 use crate::exit::Failure;
+use crate::model;
+use quad_dynamics::Level;
 use scenario::Scenario;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -66,5 +68,32 @@ impl Template {
             origin += &format!("{key} = {value}");
         }
         Ok(Scenario::from_table(&table, &origin)?)
+    }
+
+    /// The same with these keys set for good.
+    pub(crate) fn set(mut self, settings: &[Setting]) -> Result<Self, Failure> {
+        for Setting { key, value } in settings {
+            scenario::set(&mut self.table, key, value.clone())?;
+        }
+        Ok(self)
+    }
+
+    /// The same with every quadrotor at a level, with the level's own phenomena and the inversion that belongs to it.
+    pub(crate) fn at_level(mut self, level: Level) -> Result<Self, Failure> {
+        let scenario = self.with([])?;
+        let laws = model::laws(&scenario, level, false);
+        let scenario = model::at(&scenario, level, None, &laws);
+        self.table = Table::try_from(&scenario).map_err(|error| Failure::Usage(error.to_string()))?;
+        Ok(self)
+    }
+
+    /// The value of a key, if it stands in the file.
+    pub(crate) fn get(&self, key: &str) -> Option<&Value> {
+        scenario::get(&self.table, key).ok()
+    }
+
+    /// The file as a table.
+    pub(crate) fn table(&self) -> &Table {
+        &self.table
     }
 }

@@ -68,6 +68,7 @@ pub mod optimisers;
 mod outcome;
 mod path;
 mod problem;
+mod recorded;
 mod rollout;
 pub mod selection;
 mod surface;
@@ -82,6 +83,7 @@ pub use nominal::{Choice, HALF_CROSSING_M, HEIGHT_M, POSITION_SETTLING_S};
 pub use outcome::{Failure, Histories, History, Outcome};
 pub use path::Path;
 pub use problem::{Gradient, LANES, Problem};
+pub use recorded::{CostBox, Pair, Span};
 pub use surface::{Grid, Minimum, Objective, Surface};
 
 /// The README's example is tested with the documentation.

@@ -62,7 +62,7 @@ pub(crate) struct Tally<R: Real> {
 
 /// Whether a flight is one still: neither comparison is true of NaN.
 #[inline(always)]
-fn goes_on<R: Real>(position: &Vector3<R>, terms: &Terms<R>) -> R::SimdBool {
+pub(crate) fn goes_on<R: Real>(position: &Vector3<R>, terms: &Terms<R>) -> R::SimdBool {
     let sum = terms.array().into_iter().fold(R::zero(), |sum, term| sum + term);
     let inside = position.norm_squared().simd_lt(constant(LOST_M * LOST_M));
     inside & sum.simd_lt(constant(FAILURE))

@@ -1,12 +1,14 @@
 //! The scenario file: the TOML schema as types. Units are in the keys; unknown keys are errors.
 
 mod controller;
+mod optimise;
 mod output;
 mod quadrotor;
 mod reference;
 mod station;
 
 pub use controller::{AttitudeFile, ControllerFile, Law, LoopFile, PID, POSITION};
+pub use optimise::{Algorithm, LimitsFile, OptimiseFile, VariableFile, WeightsFile};
 pub use output::{BoxLimits, Format, OutputFile, StopFile};
 pub use quadrotor::{
     CommandOffset, LevelChange, ProcessNoiseFile, QuadrotorFile, StartFile, TurbulenceFile, WindFile,
@@ -53,6 +55,9 @@ pub struct Scenario {
     /// What is recorded, where and how often.
     #[serde(default)]
     pub output: OutputFile,
+    /// What `sifre optimise` is to find; a run ignores it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optimise: Option<OptimiseFile>,
 }
 
 impl Scenario {

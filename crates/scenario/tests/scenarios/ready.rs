@@ -268,6 +268,24 @@ fn prop_power_transmission_passes() {
     assert!((1.6..2.6).contains(&ratio), "{ratio}");
 }
 
+/// The pass that is to be optimised flies as it is, and every variable of it is a key with a value within its bounds.
+#[test]
+fn exact_the_pass_to_optimise_can_be_flown_and_varied() {
+    let flown = done("optimise-transmission");
+    assert!(flown.metric("station.tracked_fraction") > 0.9);
+    let text = ready("optimise-transmission");
+    let table: toml::Table = toml::from_str(&text).unwrap();
+    let optimise = scenario::Scenario::from_toml_str(&text, "test").unwrap().optimise;
+    for variable in optimise.expect("the table is there").variables {
+        let value = scenario::get(&table, &variable.key).unwrap().as_float().unwrap();
+        assert!(
+            (variable.lower..=variable.upper).contains(&value),
+            "{}",
+            variable.key
+        );
+    }
+}
+
 #[test]
 fn prop_two_quadrotors_are_tracked_alike() {
     let flown = done("two-quadrotors");

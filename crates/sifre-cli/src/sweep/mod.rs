@@ -5,7 +5,7 @@
 //! plus d; so all points of a grid see the same draws, and neither threads nor interruptions change a row. Rows go to a journal
 //! (`<out>.journal`) as they come and to the table, in order, at the end.
 
-mod axes;
+pub(crate) mod axes;
 mod journal;
 mod table;
 

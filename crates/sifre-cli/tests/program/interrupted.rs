@@ -118,3 +118,31 @@ fn exact_an_interrupted_sweep_goes_on() {
     assert_eq!(read("pieces.csv"), read("whole.csv"));
     assert!(!folder.path("pieces.csv.journal").exists());
 }
+
+/// Ctrl-C keeps what was flown, and the search goes on from it.
+#[test]
+fn exact_an_interrupted_optimisation_goes_on() {
+    let folder = Folder::new("interrupted-search");
+    let scenario = ready("optimise-transmission");
+    let given = ["optimise", &scenario, "--json", "--set", "duration_s=1", "--set"];
+    let long = ["optimise.budget=1000000", "--set", "optimise.algorithm=annealing"];
+    let child = start(&folder, &[&given[..], &long].concat());
+    wait_for(&folder.path("optimum/state.json"), 500);
+    interrupt(child).exits(130).says(&["--resume"]);
+    let flown = || {
+        let text = fs::read_to_string(folder.path("optimum/state.json")).unwrap();
+        let state: serde_json::Value = serde_json::from_str(&text).unwrap();
+        state["courses"][0]["rows"].as_array().unwrap().len()
+    };
+    let before = flown();
+    assert!(before > 0);
+    let budget = format!("optimise.budget={}", before + 3);
+    let short = [
+        budget.as_str(),
+        "--set",
+        "optimise.algorithm=annealing",
+        "--resume",
+    ];
+    folder.run(&[&given[..], &short].concat()).exits(0);
+    assert_eq!(flown(), before + 3);
+}

@@ -3,5 +3,7 @@
 mod bad_input;
 mod commands;
 mod interrupted;
+mod optimise;
+mod questions;
 mod support;
 mod sweeps;

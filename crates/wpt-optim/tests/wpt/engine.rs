@@ -5,7 +5,7 @@ use quad_dynamics::Level;
 use sifre::black_box::MemoryBox;
 use sifre::{Recording, StepSize};
 use std::num::NonZeroU64;
-use wpt_optim::{Choice, History, Problem};
+use wpt_optim::{Choice, CostBox, FAILURE, History, Pair, Penalties, Problem, Span, Weights};
 
 /// Instants of the station between two that are compared: 20 ms.
 const EVERY: u64 = 10;
@@ -79,4 +79,63 @@ fn agree_engine_and_rollout_over_the_station() {
     for level in [Level::One, Level::Three, Level::Five] {
         assert_same_bits(&nominal(Choice::Two, 10.0, level), &[4.0, -4.0]);
     }
+}
+
+/// Φ of the engine's flight, from its recording at the station's step, cut off after `duration_s`.
+fn recorded_cost(problem: &Problem, x: &[f64], duration_s: f64) -> CostBox {
+    let mut simulation = problem.simulation(x).unwrap();
+    let mission = problem.mission();
+    let pair = Pair {
+        quadrotor: wpt_optim::QUADROTOR.to_owned(),
+        station: wpt_optim::STATION.to_owned(),
+    };
+    let (weights, penalties) = (Weights::default(), Penalties::default());
+    let cost = CostBox::new(pair, &mission.station, &mission.vehicle, &weights, &penalties).unwrap();
+    let id = simulation.attach(mission.station_step, cost).unwrap();
+    simulation.run(duration_s, &mut ()).unwrap();
+    simulation.detach::<CostBox>(id).unwrap().unwrap()
+}
+
+/// The same terms at the same instants. Sums differ in their order over 5000 instants, 5000 ε, and the recording gives the attitude
+/// as angles, some ε more. A row has the commands of the step that begins, a rollout's instant those of the step that
+/// ended: the mean of one term shifts by no more than its variation times the station's step over the duration.
+#[test]
+fn agree_the_cost_of_a_recording_and_of_the_rollout() {
+    for (choice, level, x) in [
+        (Choice::Four, Level::One, &NORTH[..]),
+        (Choice::Four, Level::Three, &NORTH[..]),
+        (Choice::Two, Level::Five, &[4.0, -4.0][..]),
+    ] {
+        let problem = nominal(choice, 10.0, level);
+        let rollout = problem.evaluate(x).unwrap();
+        let recorded = recorded_cost(&problem, x, 10.0).outcome(Span::Recorded);
+        assert_eq!(recorded.failure, None);
+        let mut means = recorded.means.array().into_iter().zip(rollout.means.array());
+        let shift = means.next_back().map(|(a, b)| (a - b).abs()).unwrap();
+        for (term, (a, b)) in means.enumerate() {
+            assert!(
+                (a - b).abs() <= 1e-11 * b.abs(),
+                "{level}, term {term}: {a} and {b}"
+            );
+        }
+        let flown = problem.histories(x, NonZeroU64::MIN).unwrap().instants;
+        let step = |w: &[History]| (w[1].terms.saturation - w[0].terms.saturation).abs();
+        let variation: f64 = flown.windows(2).map(step).sum();
+        let bound = variation * problem.mission().station_step.seconds() / 10.0;
+        assert!(
+            shift <= bound,
+            "{level}: saturation differs by {shift}, at most {bound}"
+        );
+        assert!(level != Level::Five || variation > 0.0, "nothing saturates");
+    }
+}
+
+/// Half a flight of a planned whole: half of the failure's cost, and half of the mean over what was flown.
+#[test]
+fn exact_what_was_not_flown_costs_its_share_of_a_failure() {
+    let problem = nominal(Choice::Four, 10.0, Level::Three);
+    let half = recorded_cost(&problem, &NORTH, 5.0);
+    let (flown, planned) = (half.outcome(Span::Recorded), half.outcome(Span::Planned(10.0)));
+    assert!((planned.cost - 0.5 * (FAILURE + flown.cost)).abs() < 1e-9);
+    assert_eq!(planned.failure.map(|failure| failure.time_s), Some(5.0));
 }

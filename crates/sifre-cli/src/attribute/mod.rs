@@ -1,0 +1,248 @@
+//! `sifre attribute`: which phenomenon makes the difference between neighbouring levels.
+//!
+//! ```text
+//! from below   v({i}) − v(∅)            switched on alone
+//! from above   v(N) − v(N ∖ {i})        taken away
+//! Shapley      adds up to v(N) − v(∅)
+//! ```
+//!
+//! All models between two levels are flown by the controller of the lower one, so that the difference is the models' alone. Where
+//! another controller belongs to the upper level, what the change of controller adds is told beside. Source: Shapley 1953.
+
+mod output;
+
+use crate::disk::Beside;
+use crate::exit::{Exit, Failure};
+use crate::varied::{Setting, Template, setting};
+use crate::{drawing, interrupt, measure, model, report};
+use quad_dynamics::{Attribution, AttributionError, Level, Parts, PhenomenonSet};
+use scenario::{End, Files, Law, Scenario};
+use std::path::PathBuf;
+
+/// How it is used, as `--help` shows it.
+const EXAMPLE: &str = "\
+Example:
+  sifre attribute scenarios/horizontal-step.toml --metric position_error_rms_m --plot why.svg";
+
+/// Arguments of `sifre attribute`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLE)]
+pub(crate) struct Arguments {
+    /// The scenario.
+    scenario: PathBuf,
+    /// The number that is explained, as `sifre run` prints it: `alpha.position_error_rms_m`; also step metrics
+    /// (`alpha.z.overshoot`) and a station's cost (`station.phi`). The agent's name may be left out where only one has it.
+    #[arg(long)]
+    metric: String,
+    /// The lower level; all neighbouring levels without it.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=5))]
+    from: Option<u8>,
+    /// The upper level; the next above --from without it.
+    #[arg(long, requires = "from", value_parser = clap::value_parser!(u8).range(1..=5))]
+    to: Option<u8>,
+    /// Set a key of the scenario: `--set duration_s=5`. May be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    settings: Vec<Setting>,
+    /// The picture, .svg or .png.
+    #[arg(long, short)]
+    plot: Option<PathBuf>,
+    /// Keep the scenario's controllers at the levels that they may fly, instead of the inversion that belongs to each.
+    #[arg(long)]
+    keep_controllers: bool,
+}
+
+/// What makes the difference between two levels.
+#[derive(Clone, Debug)]
+pub(crate) struct Explained {
+    pub(crate) lower: Level,
+    pub(crate) upper: Level,
+    /// The difference and its parts, the controllers the lower level's.
+    pub(crate) models: Attribution,
+    /// What the upper level's controllers add, if they are others.
+    pub(crate) controllers: Option<Controllers>,
+}
+
+/// What a change of controllers adds.
+#[derive(Clone, Debug)]
+pub(crate) struct Controllers {
+    /// Those of the lower level.
+    pub(crate) lower: Vec<Law>,
+    /// Those of the upper level.
+    pub(crate) upper: Vec<Law>,
+    /// What they add to the number.
+    pub(crate) adds: f64,
+}
+
+/// Two levels and what is between them, or why that can't be told.
+pub(crate) type Pair = (Level, Level, Result<Explained, String>);
+
+/// Why a run gave no number.
+enum Stop {
+    Interrupted,
+    Failure(Failure),
+    /// It ended early, as these words say.
+    Early(String),
+}
+
+/// What is explained, and the models flown so far: neighbouring pairs share theirs.
+pub(crate) struct Question<'a> {
+    pub(crate) scenario: &'a Scenario,
+    pub(crate) files: &'a dyn Files,
+    pub(crate) metric: &'a str,
+    pub(crate) keep_controllers: bool,
+    known: Vec<(Model, f64)>,
+}
+
+#[derive(PartialEq)]
+struct Model {
+    level: Level,
+    phenomena: PhenomenonSet,
+    laws: Vec<Law>,
+}
+
+/// Explains the differences between levels.
+pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
+    model::check(&scenario)?;
+    if let Some(path) = &arguments.plot {
+        drawing::check(path)?;
+    }
+    interrupt::listen();
+    let files = Beside::of(&arguments.scenario);
+    let mut question = Question::new(&scenario, &files, &arguments.metric, arguments.keep_controllers);
+    let mut pairs = Vec::new();
+    for (lower, upper) in asked(arguments)? {
+        match question.explain(lower, upper)? {
+            Some(explained) => pairs.push((lower, upper, explained)),
+            None => return Ok(Exit::Interrupted),
+        }
+    }
+    if let Some(path) = &arguments.plot {
+        drawing::write(path, &output::figure(&arguments.metric, &pairs))?;
+    }
+    if json {
+        report::print(&output::json(&arguments.metric, &pairs));
+    } else {
+        report::say(output::text(&arguments.metric, &pairs));
+        if let Some(path) = &arguments.plot {
+            report::say(format!("drawn: {}\n", path.display()));
+        }
+    }
+    let all = pairs.iter().all(|(.., explained)| explained.is_ok());
+    Ok(if all { Exit::Done } else { Exit::Early })
+}
+
+/// The pairs of levels that are asked for.
+fn asked(arguments: &Arguments) -> Result<Vec<(Level, Level)>, Failure> {
+    let level = |number: u8| Level::try_from(number).map_err(|e| Failure::Usage(e.to_string()));
+    let Some(from) = arguments.from else {
+        return Ok(Level::ALL.windows(2).map(|pair| (pair[0], pair[1])).collect());
+    };
+    let to = arguments.to.unwrap_or(from + 1);
+    if to <= from || to > 5 {
+        return Err(Failure::Usage(format!(
+            "--from {from} --to {to}: there is nothing between them; give a higher level with --to"
+        )));
+    }
+    Ok(vec![(level(from)?, level(to)?)])
+}
+
+impl<'a> Question<'a> {
+    /// A question about a scenario.
+    pub(crate) fn new(
+        scenario: &'a Scenario,
+        files: &'a dyn Files,
+        metric: &'a str,
+        keep_controllers: bool,
+    ) -> Self {
+        Self {
+            scenario,
+            files,
+            metric,
+            keep_controllers,
+            known: Vec::new(),
+        }
+    }
+
+    /// What makes the difference between two levels, or why that can't be told; nothing if it was interrupted.
+    pub(crate) fn explain(
+        &mut self,
+        lower: Level,
+        upper: Level,
+    ) -> Result<Option<Result<Explained, String>>, Failure> {
+        match self.parts(lower, upper) {
+            Ok(explained) => Ok(Some(Ok(explained))),
+            Err(Stop::Interrupted) => Ok(None),
+            Err(Stop::Failure(failure)) => Err(failure),
+            Err(Stop::Early(words)) => Ok(Some(Err(words))),
+        }
+    }
+
+    fn parts(&mut self, lower: Level, upper: Level) -> Result<Explained, Stop> {
+        let [before, after] =
+            [lower, upper].map(|level| model::laws(self.scenario, level, self.keep_controllers));
+        let parts = Parts::between_levels(lower, upper);
+        let measured = parts.attribute(|level, phenomena| self.value(level, phenomena, &before));
+        let models = measured.map_err(|error| match error {
+            AttributionError::Run(stop) => stop,
+            AttributionError::NotFinite {
+                level,
+                phenomena,
+                value,
+            } => Stop::Early(format!("the flight at {level} with {phenomena} gave {value}")),
+            AttributionError::NotAbove { .. } | AttributionError::TooManyParts { .. } => {
+                Stop::Early(format!("{lower} and {upper} can't be compared"))
+            }
+        })?;
+        let controllers = if before == after {
+            None
+        } else {
+            Some(Controllers {
+                adds: self.value(upper, &upper.phenomena(), &after)? - models.top,
+                lower: before,
+                upper: after,
+            })
+        };
+        Ok(Explained {
+            lower,
+            upper,
+            models,
+            controllers,
+        })
+    }
+
+    /// The number of the flight at a model.
+    fn value(&mut self, level: Level, phenomena: &PhenomenonSet, laws: &[Law]) -> Result<f64, Stop> {
+        let model = Model {
+            level,
+            phenomena: phenomena.clone(),
+            laws: laws.to_vec(),
+        };
+        if let Some((_, value)) = self.known.iter().find(|(known, _)| *known == model) {
+            return Ok(*value);
+        }
+        let scenario = model::at(self.scenario, level, Some(phenomena), laws);
+        let measured = measure::fly(&scenario, self.files).map_err(Stop::Failure)?;
+        if measured.end == End::Interrupted {
+            return Err(Stop::Interrupted);
+        }
+        let value = measured.value(self.metric).map_err(Stop::Failure)?;
+        if !value.is_finite() {
+            return Err(Stop::Early(format!(
+                "the flight at {level} with {phenomena} has no {}: {}",
+                self.metric, measured.status
+            )));
+        }
+        self.known.push((model, value));
+        Ok(value)
+    }
+}
+
+impl Explained {
+    /// The whole difference, the controllers' part included.
+    pub(crate) fn difference(&self) -> f64 {
+        self.models.difference() + self.controllers.as_ref().map_or(0.0, |c| c.adds)
+    }
+}
+
+pub(crate) use output::{json as as_json, text as as_text};

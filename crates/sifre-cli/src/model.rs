@@ -1,0 +1,49 @@
+//! A scenario with its quadrotors at another model, from start to end.
+
+use crate::exit::Failure;
+use quad_dynamics::{Level, Phenomenon, PhenomenonSet};
+use scenario::{Law, Scenario};
+
+/// The controllers that fly the quadrotors at a level: those that belong to it, or the scenario's where they may fly.
+pub(crate) fn laws(scenario: &Scenario, level: Level, keep: bool) -> Vec<Law> {
+    let one = |quadrotor: &scenario::QuadrotorFile| {
+        let given = quadrotor.controller.kind.at(quadrotor.level);
+        let kept = keep && given.lowest_level() <= level;
+        if kept { given } else { Law::Paired.at(level) }
+    };
+    scenario.quadrotor.iter().map(one).collect()
+}
+
+/// The scenario with every quadrotor at a level, with these phenomena or the level's own, flown by these controllers.
+pub(crate) fn at(
+    scenario: &Scenario,
+    level: Level,
+    phenomena: Option<&PhenomenonSet>,
+    laws: &[Law],
+) -> Scenario {
+    let mut scenario = scenario.clone();
+    let has_drag = phenomena.unwrap_or(&level.phenomena()).contains(Phenomenon::Drag);
+    for (quadrotor, law) in scenario.quadrotor.iter_mut().zip(laws) {
+        quadrotor.level = level;
+        quadrotor.phenomena = phenomena.cloned();
+        quadrotor.level_changes.clear();
+        quadrotor.level_rule = None;
+        if !has_drag {
+            // What moves in the air is not felt without drag.
+            quadrotor.wind.shear = None;
+            quadrotor.wind.turbulence = None;
+        }
+        quadrotor.controller.kind = *law;
+    }
+    scenario
+}
+
+/// Refuses a scenario without anything that has levels.
+pub(crate) fn check(scenario: &Scenario) -> Result<(), Failure> {
+    if scenario.quadrotor.is_empty() {
+        return Err(Failure::Usage(
+            "there is no quadrotor in it: only quadrotors have levels".to_owned(),
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,189 @@
+//! The state of an optimisation on disk: what was flown, and the searches as they are.
+//!
+//! It is written beside the old one and then takes its name, so that there is a whole one at any time.
+
+use super::problem::Problem;
+use crate::disk;
+use crate::exit::Failure;
+use quad_dynamics::Level;
+use scenario::Algorithm;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::Path;
+use wpt_optim::optimisers::{
+    Annealing, AnnealingSettings, Evolution, EvolutionSettings, LineSearch, LineSearchSettings, NelderMead,
+    Search, SetupError, SimplexSettings, StopReason,
+};
+
+/// Everything that is known.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct State {
+    /// What was asked; another question is another state.
+    fingerprint: String,
+    /// One search per level.
+    pub(super) courses: Vec<Course>,
+}
+
+/// The search at one level.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Course {
+    /// The level; as the scenario has it where none.
+    pub(super) level: Option<Level>,
+    search: AnySearch,
+    /// What was flown.
+    pub(super) rows: Vec<Row>,
+    /// Time that it took, s.
+    pub(super) elapsed_s: f64,
+    /// Why it ended, if it has.
+    pub(super) stop: Option<StopReason>,
+}
+
+/// One flight.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Row {
+    /// Number of the candidate.
+    pub(super) candidate: u64,
+    /// Values of the variables.
+    pub(super) values: Vec<f64>,
+    /// Cost; nothing if it could not be flown.
+    pub(super) cost: Option<f64>,
+    /// Why it failed, if it did.
+    pub(super) failure: Option<String>,
+}
+
+/// A search of any kind.
+#[derive(Debug, Serialize, Deserialize)]
+enum AnySearch {
+    NelderMead(NelderMead),
+    LineSearch(LineSearch),
+    Annealing(Annealing),
+    Evolution(Evolution),
+}
+
+impl State {
+    /// Nothing flown yet.
+    pub(super) fn new(problem: &Problem) -> Result<Self, Failure> {
+        let course = |level| {
+            let search = AnySearch::new(problem)?;
+            Ok(Course {
+                level,
+                search,
+                rows: Vec::new(),
+                elapsed_s: 0.0,
+                stop: None,
+            })
+        };
+        let courses: Result<Vec<Course>, SetupError> = problem.levels().into_iter().map(course).collect();
+        Ok(Self {
+            fingerprint: fingerprint(problem),
+            courses: courses.map_err(|error| Failure::Usage(format!("optimise: {error}")))?,
+        })
+    }
+
+    /// The state of this problem on disk.
+    pub(super) fn read(path: &Path, problem: &Problem) -> Result<Self, Failure> {
+        let text = disk::read(path)?;
+        let state: Self = serde_json::from_str(&text)
+            .map_err(|error| Failure::Usage(format!("{}: not a state: {error}", path.display())))?;
+        if state.fingerprint != fingerprint(problem) {
+            return Err(Failure::Usage(format!(
+                "{} is of another scenario: only `budget` may change before --resume",
+                path.display()
+            )));
+        }
+        Ok(state)
+    }
+
+    /// Writes it, whole at any time.
+    pub(super) fn write(&self, path: &Path) -> Result<(), Failure> {
+        let refuse = |source| Failure::Write {
+            path: path.to_owned(),
+            source,
+        };
+        let text = serde_json::to_string(self).map_err(|error| refuse(error.into()))?;
+        let beside = path.with_extension("json.new");
+        fs::write(&beside, text).map_err(refuse)?;
+        fs::rename(&beside, path).map_err(refuse)
+    }
+}
+
+/// What makes this problem another than the next. A budget may grow.
+fn fingerprint(problem: &Problem) -> String {
+    let mut table = problem.template.table().clone();
+    if let Some(toml::Value::Table(optimise)) = table.get_mut("optimise") {
+        optimise.remove("budget");
+    }
+    format!("{table} of {}", env!("CARGO_PKG_VERSION"))
+}
+
+impl Course {
+    /// The search.
+    pub(super) fn search(&mut self) -> &mut dyn Search {
+        match &mut self.search {
+            AnySearch::NelderMead(search) => search,
+            AnySearch::LineSearch(search) => search,
+            AnySearch::Annealing(search) => search,
+            AnySearch::Evolution(search) => search,
+        }
+    }
+
+    /// Flights that failed.
+    pub(super) fn failed(&self) -> usize {
+        self.rows.iter().filter(|row| row.failure.is_some()).count()
+    }
+
+    /// The best flight that did not fail.
+    pub(super) fn best(&self) -> Option<(&Row, f64)> {
+        let sound = self.rows.iter().filter(|row| row.failure.is_none());
+        let costs = sound.filter_map(|row| row.cost.filter(|c| c.is_finite()).map(|cost| (row, cost)));
+        costs.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.candidate.cmp(&b.0.candidate)))
+    }
+
+    /// Its files' names.
+    pub(super) fn label(&self) -> String {
+        self.level
+            .map_or_else(String::new, |level| format!("-level-{}", level.number()))
+    }
+}
+
+impl AnySearch {
+    fn new(problem: &Problem) -> Result<Self, SetupError> {
+        let (variables, start, seed) = (problem.variables.clone(), &problem.start, problem.file.seed);
+        Ok(match problem.file.algorithm {
+            Algorithm::NelderMead => {
+                let settings = SimplexSettings {
+                    // A cost of a few digits is what a flight is worth.
+                    spread: 1e-4,
+                    cost_spread: 1e-6,
+                    ..SimplexSettings::default()
+                };
+                Self::NelderMead(NelderMead::new(variables, start, settings)?)
+            }
+            Algorithm::LineSearch => {
+                let settings = LineSearchSettings {
+                    spread: 1e-4,
+                    gain: 1e-6,
+                    ..LineSearchSettings::default()
+                };
+                Self::LineSearch(LineSearch::new(variables, start, settings)?)
+            }
+            Algorithm::Annealing => {
+                let settings = AnnealingSettings {
+                    seed,
+                    ..AnnealingSettings::default()
+                };
+                Self::Annealing(Annealing::new(variables, start, settings)?)
+            }
+            Algorithm::Evolution => {
+                let settings = EvolutionSettings {
+                    seed,
+                    ..EvolutionSettings::default()
+                };
+                Self::Evolution(Evolution::new(variables, settings)?)
+            }
+        })
+    }
+}
