@@ -87,7 +87,6 @@ fn thesis_two_mirror_minima_and_a_saddle() {
         let pass = least(1.0, 8.0, across);
         let beside = |d: f64| problem.ideal(&[pass + d, -pass + d]).unwrap().cost;
         let height = across(pass);
-        println!("PASS {pass} {height} {} {} {north}", beside(-0.3), beside(0.3));
         assert!(
             beside(-0.3) < height && beside(0.3) < height,
             "{duration_s} s: no saddle at {pass} m"
