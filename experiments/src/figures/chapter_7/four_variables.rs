@@ -39,7 +39,7 @@ pub(super) const FIGURE_7_17: Item = Item {
 pub(super) const FIGURE_7_18: Item = Item {
     id: "7.18",
     title: "Errors and cost of each level's four-variable solution from *X*_{0} = [5, −1.5, −8, 1.5]",
-    description: "As figure 7.16, searched from another start.",
+    description: "As figure 7.16 for the crossings that the simplex found from another start, which lies farther from the station and moves.",
     make: Make::Draw(|context| errors(context, Case::FourMoving)),
     ..SHARED
 };
@@ -48,7 +48,7 @@ pub(super) const FIGURE_7_18: Item = Item {
 pub(super) const FIGURE_7_19: Item = Item {
     id: "7.19",
     title: "Near-optimal trajectories of each level, four variables from *X*_{0} = [5, −1.5, −8, 1.5]",
-    description: "As figure 7.17, searched from another start.",
+    description: "The crossings of figure 7.18 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::FourMoving)),
     ..SHARED
 };
@@ -75,7 +75,7 @@ pub(super) const FIGURE_7_20: Item = Item {
 pub(super) const TABLE_7_3: Item = Item {
     id: "table-7.3",
     title: "Four-variable optimisation from *X*_{0} = [5, 0, −5, 0]",
-    description: "The simplex at each level for a crossing in 20 s.",
+    description: "The simplex at each level for a crossing in 20 s, from a start at rest on opposite sides of the station.",
     kind: Kind::Table,
     claims: &[ENDED],
     make: Make::Draw(|context| table(context, Case::Four)),
@@ -86,7 +86,7 @@ pub(super) const TABLE_7_3: Item = Item {
 pub(super) const TABLE_7_4: Item = Item {
     id: "table-7.4",
     title: "Four-variable optimisation from *X*_{0} = [5, −1.5, −8, 1.5]",
-    description: "As table 7.3, from another start.",
+    description: "The simplex at each level for a crossing in 20 s, as table 7.3, from another start.",
     make: Make::Draw(|context| table(context, Case::FourMoving)),
     ..TABLE_7_3
 };

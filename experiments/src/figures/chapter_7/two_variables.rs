@@ -49,7 +49,7 @@ pub(super) const FIGURE_7_10: Item = Item {
 pub(super) const FIGURE_7_11: Item = Item {
     id: "7.11",
     title: "Errors and cost of each level's two-variable solution, 20 s",
-    description: "As figure 7.8, for a crossing in 20 s.",
+    description: "As figure 7.8 for a crossing in 20 s: errors over their limits and the cost they add up to, while each level flies its solution from [5, 5] m.",
     make: Make::Draw(|context| errors(context, Case::TwoIn20)),
     ..SHARED
 };
@@ -58,7 +58,7 @@ pub(super) const FIGURE_7_11: Item = Item {
 pub(super) const FIGURE_7_12: Item = Item {
     id: "7.12",
     title: "Near-optimal trajectories of each level, two variables, 20 s",
-    description: "As figure 7.9, for a crossing in 20 s.",
+    description: "The crossings of figure 7.11 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::TwoIn20)),
     ..SHARED
 };
@@ -67,7 +67,7 @@ pub(super) const FIGURE_7_12: Item = Item {
 pub(super) const FIGURE_7_13: Item = Item {
     id: "7.13",
     title: "Least cost and run time per call of the cost, two variables, 20 s",
-    description: "As figure 7.10, for a crossing in 20 s.",
+    description: "The minima of figure 7.11 and the processor time that one call of the cost takes on one thread, per level.",
     claims: &[NEVER_FALLS],
     make: Make::Draw(|context| minima(context, &[("20 s", Case::TwoIn20)])),
     ..SHARED
@@ -89,7 +89,7 @@ pub(super) const TABLE_7_1: Item = Item {
 pub(super) const TABLE_7_2: Item = Item {
     id: "table-7.2",
     title: "Two-variable optimisation of a crossing in 20 s",
-    description: "As table 7.1, for a crossing in 20 s.",
+    description: "The simplex at each level from the three starts of table 7.1, for a crossing in 20 s.",
     make: Make::Draw(|context| table(context, Case::TwoIn20)),
     ..TABLE_7_1
 };
