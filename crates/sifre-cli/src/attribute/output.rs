@@ -7,7 +7,7 @@ use kuva::plot::BarPlot;
 use kuva::render::plots::Plot;
 use quad_dynamics::{Feature, Share};
 use quad_plot::figure::Legends;
-use quad_plot::style::{BLUE, Marker};
+use quad_plot::style::{BLUE, Look, Marker};
 use quad_plot::{Figure, Panel, series_style};
 use scenario::Law;
 use serde_json::{Value, json};
@@ -68,7 +68,7 @@ fn verdict(explained: &Explained) -> String {
         .chain(controllers)
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     match largest {
-        Some((name, share)) if share != 0.0 => format!("most of it: {name}"),
+        Some((name, share)) if share != 0.0 => format!("the largest part: {name}"),
         _ => "nothing makes a difference here".to_owned(),
     }
 }
@@ -144,6 +144,15 @@ pub(crate) fn figure(metric: &str, pairs: &[Pair]) -> Figure {
     panels.into_iter().fold(figure, Figure::panel)
 }
 
+/// A metric as an axis has it: its unit behind a comma, and no underscores, which would begin an index.
+fn axis_label(metric: &str) -> String {
+    let units = [("_m", "m"), ("_s", "s"), ("_deg", "°"), ("_j", "J")];
+    let with_unit =
+        |&(ending, unit): &(&str, &str)| Some(format!("{}, {unit}", metric.strip_suffix(ending)?));
+    let label = units.iter().find_map(with_unit);
+    label.unwrap_or_else(|| metric.to_owned()).replace('_', " ")
+}
+
 fn panel(metric: &str, explained: &Explained) -> Panel {
     let shares = &explained.models.shares;
     let mut bars: Vec<(String, f64)> = shares.iter().map(|s| (part_name(s), s.shapley)).collect();
@@ -155,7 +164,7 @@ fn panel(metric: &str, explained: &Explained) -> Panel {
         places.map(|(i, s)| (i as f64 + 1.0 + offset, value(s))).collect()
     };
     let (lower, upper) = (explained.lower.number(), explained.upper.number());
-    Panel::new("", format!("Change of {metric}"))
+    Panel::new("", format!("Change of {}", axis_label(metric)))
         .caption(format!("Level {lower} to level {upper}"))
         .x_categories(names)
         .kuva(move || {
@@ -165,6 +174,8 @@ fn panel(metric: &str, explained: &Explained) -> Panel {
         .x_range(0.5, right)
         .horizontal(0.0, "")
         .y_include(0.0)
+        // Bars have no place in a legend of their own.
+        .line("Shapley value", Look::solid(BLUE, 6.0), [(1.0, 0.0), (1.0, 0.0)])
         .markers(
             "alone",
             series_style(1).marked(Marker::Triangle),

@@ -33,7 +33,7 @@ level (best-level-3.toml). state.json is what --resume goes on from.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The scenario, with a table [optimise].
+    /// The scenario, with a table `[optimise]`.
     scenario: PathBuf,
     /// The folder of the outputs.
     #[arg(long, short, default_value = "optimum")]

@@ -182,11 +182,13 @@ fn trajectory(problem: &Problem, recording: &Recording) -> Figure {
     };
     let mark = Look::solid(GREY, 1.0).marked(Marker::Square);
     let above = Panel::new("East *y*, m", "North *x*, m")
+        .caption("From above")
         .line("flown", series_style(0), from_above(&flown))
         .line("reference", quad_plot::reference_style(), from_above(&asked))
         .markers("station", mark, [(stands[1], stands[0])])
         .equal_aspect();
     let side = Panel::new("East *y*, m", "Height, m")
+        .caption("From the south")
         .line("flown", series_style(0), from_the_side(&flown))
         .line("reference", quad_plot::reference_style(), from_the_side(&asked))
         .y_include(0.0);

@@ -147,8 +147,9 @@ pub(super) fn figure(evidence: &Evidence) -> Figure {
     let differences = Panel::new("Level", "Difference to level 5 / allowed")
         .x_categories(Level::ALL.map(|level| level.number().to_string()))
         .x_range(0.5, 5.5)
+        .caption("Agrees at 1 and below")
         .log_y()
-        .horizontal(1.0, "agrees below");
+        .horizontal(1.0, "");
     // A logarithmic axis has no place for no difference; level 5 differs from itself by nothing.
     let differences = evidence
         .cases
@@ -165,9 +166,9 @@ pub(super) fn figure(evidence: &Evidence) -> Figure {
                 (true, true) => case.metric.clone(),
                 (true, false) => format!("{}, {}", case.metric, case.settings()),
             };
-            panel.markers(name, series_style(k), points)
+            panel.markers(name.replace('_', " "), series_style(k), points)
         });
-    let prices = Panel::new("Level", "Computing per simulated second, ms")
+    let prices = Panel::new("Level", "Computing per second flown, ms")
         .x_categories(Level::ALL.map(|level| level.number().to_string()))
         .x_range(0.5, 5.5)
         .y_include(0.0);

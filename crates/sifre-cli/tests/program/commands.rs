@@ -173,6 +173,7 @@ fn exact_the_schema_is_one() {
     let schema = Folder::new("schema").run(&["schema"]).exits(0).json();
     assert_eq!(schema["title"], "sifre scenario");
     assert!(schema["properties"]["quadrotor"].is_object());
+    assert!(schema["properties"]["optimise"].is_object());
 }
 
 #[test]

@@ -29,9 +29,10 @@ fn cost(found: &Value) -> f64 {
 #[test]
 fn exact_the_best_of_what_was_flown_is_kept() {
     let folder = Folder::new("optimise");
-    let found = optimise(&folder, "a", &["--set", "optimise.budget=7"])
-        .exits(0)
-        .json();
+    // From farther away than the optimum, so that there is something to gain.
+    let far = ["--set", "quadrotor.alpha.reference.x_0_m=8"];
+    let seven = ["--set", "optimise.budget=7"];
+    let found = optimise(&folder, "a", &[far, seven].concat()).exits(0).json();
     assert_eq!(found["found"][0]["flights"], 7);
     assert!(found["found"][0]["stop"].as_str().unwrap().contains("budget"));
     let history = table(&folder, "a/history-level-3.csv");

@@ -150,20 +150,14 @@ fn exact_questions_without_an_answer_are_refused() {
     ask(&["--metric", METRIC, "--tolerance", "1", "--plot", "a.gif"])
         .exits(2)
         .says(&[".svg or .png"]);
-    // Level 5 falls: there is nothing to agree with.
-    let falls = "quadrotor.alpha.command_offsets=[[{ from_s = 0, duty = [-1, -1, -1, -1] }]]";
-    let falls = falls.replace("[[", "[").replace("]]", "]");
+    // Level 5 falls: there is nothing to agree with, nothing to explain.
+    let falls = "quadrotor.alpha.command_offsets=[{ from_s = 0, duty = [-1, -1, -1, -1] }]";
+    let given = ["--metric", METRIC, "--set", falls];
+    ask(&[&given[..], &["--tolerance", "1", "--repeats", "1"]].concat())
+        .exits(1)
+        .says(&["level 5 has no position_error_rms_m", "height"]);
     folder
-        .run(&[
-            "attribute",
-            &hover,
-            "--metric",
-            METRIC,
-            "--from",
-            "4",
-            "--set",
-            &falls,
-        ])
+        .run(&[&["attribute", &hover, "--from", "4"], &given[..]].concat())
         .exits(1);
     let attribute = |arguments: &[&str]| {
         let given = ["attribute", &hover, "--metric", METRIC];
