@@ -1,12 +1,14 @@
 //! The scenario file: the TOML schema as types. Units are in the keys; unknown keys are errors.
 
 mod controller;
+mod estimator;
 mod output;
 mod quadrotor;
 mod reference;
 mod station;
 
 pub use controller::{AttitudeFile, ControllerFile, Law, LoopFile, PID, POSITION};
+pub use estimator::EstimatorFile;
 pub use output::{BoxLimits, Format, OutputFile, StopFile};
 pub use quadrotor::{
     CommandOffset, LevelChange, ProcessNoiseFile, QuadrotorFile, StartFile, TurbulenceFile, WindFile,

@@ -299,3 +299,25 @@ fn prop_the_swarm_keeps_together() {
         }
     }
 }
+
+/// What the filter says of its error is what its error is, within a factor of two either way, and the flight is by its word.
+#[test]
+fn prop_the_estimator_is_in_the_loop() {
+    let text = ready("estimator-in-the-loop");
+    let flown = done("estimator-in-the-loop");
+    let (error, stated) = (
+        flown.metric("alpha.estimate_error_rms_m"),
+        flown.metric("alpha.estimate_sd_rms_m"),
+    );
+    println!(
+        "errs by {error} m, says {stated} m, tracks to {} m",
+        flown.metric("alpha.position_error_rms_m")
+    );
+    assert!(
+        error < 2.0 * stated && stated < 2.0 * error,
+        "{error} m and {stated} m"
+    );
+    let beside = fly(&text.replace("in_loop = true ", "in_loop = false "));
+    let without = fly(&text.replace("[quadrotor.estimator]", "").replace("level = 3  ", "#").replace("filter =", "#").replace("sensors =", "#").replace("in_loop =", "#"));
+    println!("beside {} m, without {} m", beside.metric("alpha.position_error_rms_m"), without.metric("alpha.position_error_rms_m"));
+}
