@@ -15,6 +15,7 @@
 
 mod air;
 mod estimation;
+mod memory;
 mod pilot;
 mod record;
 mod rule;
@@ -30,9 +31,10 @@ use crate::agent::{Agent, AgentId, Directory, MemoryError, Moment, Published};
 use crate::black_box::Channel;
 use crate::error::BindError;
 use crate::event::AgentEvent;
-use crate::exact::{Exact, exact, plain};
+use crate::exact::plain;
 use air::Air;
-use estimation::{Estimating, EstimatingMemory};
+use estimation::Estimating;
+use memory::Restored;
 use nalgebra::Vector3;
 use quad_dynamics::{
     AnyQuadrotor, BuildError, Flight, Input, Level, Phenomenon, PhenomenonSet, Snapshot, Vehicle,
@@ -40,7 +42,6 @@ use quad_dynamics::{
 use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
 use rule::Side;
-use serde::{Deserialize, Serialize};
 
 /// A quadrotor at any level, under any pilot, with any guidance.
 #[derive(Debug)]
@@ -70,30 +71,6 @@ pub struct Quadrotor {
 
 /// Step over which the current of hover is taken, s: any, it hardly changes in a second.
 const DRAW_STEP_S: f64 = 1e-3;
-
-/// All that a quadrotor needs to go on.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Memory {
-    level: Level,
-    phenomena: PhenomenonSet,
-    entry: Option<usize>,
-    state: Vec<Exact>,
-    pilot: Vec<Exact>,
-    commands: [Exact; 4],
-    wind: [Exact; 3],
-    air: [Exact; 5],
-    charge_drawn: Exact,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    estimating: Option<EstimatingMemory>,
-}
-
-/// What a memory holds, checked.
-struct Restored {
-    memory: Memory,
-    quadrotor: AnyQuadrotor<f64>,
-    estimating: Option<Box<Estimating>>,
-}
 
 /// A model of the vehicle in hover.
 fn model(
@@ -336,26 +313,6 @@ impl Quadrotor {
         estimating.send(commands);
         commands
     }
-
-    /// Its memory, checked: the model it flies and nothing changed yet.
-    fn read(&self, memory: &serde_json::Value) -> Result<Restored, MemoryError> {
-        let mut memory = Memory::deserialize(memory)?;
-        check_pairing(self.setup.pilot.level(), memory.level)?;
-        let vehicle = &self.setup.vehicle;
-        let mut quadrotor = model(vehicle, memory.level, &memory.phenomena, Vector3::zeros(), 0.0)?;
-        MemoryError::check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
-        quadrotor.read_state(&plain(&memory.state));
-        let estimating = match (&self.estimating, memory.estimating.take()) {
-            (None, None) => None,
-            (Some(estimating), Some(memory)) => Some(Box::new(estimating.remembered(memory)?)),
-            _ => return Err(MemoryError::OneHasAnEstimator),
-        };
-        Ok(Restored {
-            memory,
-            quadrotor,
-            estimating,
-        })
-    }
 }
 
 impl Agent for Quadrotor {
@@ -444,20 +401,7 @@ impl Agent for Quadrotor {
     }
 
     fn save(&self) -> Result<serde_json::Value, serde_json::Error> {
-        let mut state = vec![0.0; self.quadrotor.state_len()];
-        self.quadrotor.write_state(&mut state);
-        serde_json::to_value(Memory {
-            level: self.quadrotor.level(),
-            phenomena: self.quadrotor.phenomena().clone(),
-            entry: self.entry,
-            state: exact(&state),
-            pilot: exact(&self.setup.pilot.memory()),
-            commands: self.input.commands.map(Exact),
-            wind: <[f64; 3]>::from(self.input.wind).map(Exact),
-            air: self.air.memory().map(Exact),
-            charge_drawn: Exact(self.charge_drawn),
-            estimating: self.estimating.as_ref().map(|e| e.memory()),
-        })
+        serde_json::to_value(self.memory())
     }
 
     fn restore(&mut self, memory: &serde_json::Value) -> Result<(), MemoryError> {
