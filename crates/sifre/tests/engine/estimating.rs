@@ -272,8 +272,7 @@ fn exact_a_snapshot_of_another_estimator_is_refused() {
     ] {
         let quadrotor = Quadrotor::new(setup(Level::Five, other)).expect("a valid setup");
         let error = Simulation::resume(vec![Member::new(quadrotor, ms(4.0))], &snapshot)
-            .err()
-            .expect("another estimator");
+            .expect_err("another estimator");
         assert!(
             matches!(error, ResumeError::Snapshot(SnapshotError::Memory { .. })),
             "{error}"
