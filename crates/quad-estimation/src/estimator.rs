@@ -5,6 +5,10 @@
 //! reading come in time (Larsen et al., *CDC* 1998, compare the cheaper approximations). Costs the delay's predictions once more for
 //! each late reading. A measurement older than the memory is an error and changes nothing.
 
+mod memory;
+
+pub use memory::{EstimatorMemory, RememberedInstant, RememberedReading};
+
 use crate::belief::{Belief, Innovation};
 use crate::filter::{Filter, Observation};
 use crate::sensor::{Instrument, Measurement};
@@ -67,6 +71,28 @@ impl<F: Filter<Process = LevelProcess>> Estimator<F> {
         crate::error::positive("a gate on the normalised innovation", gate)?;
         self.gate = Some(gate);
         Ok(self)
+    }
+
+    /// Remembers for this long from now on, ns.
+    pub fn remember(&mut self, memory_ns: u64) {
+        self.memory_ns = memory_ns;
+    }
+
+    /// Begins anew at the present with this belief, this input acting: all that was measured before is forgotten.
+    ///
+    /// # Errors
+    /// A belief of another size; the estimator is then as it was.
+    pub fn restart(&mut self, belief: Belief, input: Input<f64>) -> Result<(), EstimationError> {
+        self.filter
+            .believe(crate::filter::checked(self.filter.process(), belief)?);
+        self.input = input;
+        self.epochs = VecDeque::from([Epoch {
+            time_ns: self.now_ns,
+            prior: self.filter.belief().clone(),
+            input_before: input,
+            measurements: Vec::new(),
+        }]);
+        Ok(())
     }
 
     /// The filter.

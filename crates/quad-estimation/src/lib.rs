@@ -46,6 +46,7 @@
 //! | error-state extended Kalman filter | [`ExtendedFilter`] | head of `extended.rs` |
 //! | unscented Kalman filter | [`UnscentedFilter`] | head of `unscented.rs` |
 //! | a filter with a clock, late measurements | [`Estimator`] | head of `estimator.rs` |
+//! | either filter by value; an estimator's memory, for files | [`AnyFilter`], [`EstimatorMemory`] | |
 //! | estimate, NEES, NIS | [`Estimate`], [`LevelProcess::nees`], [`Innovation`] | |
 //!
 //! Both filters are a [`Filter`] on any [`Process`]; a quadrotor's level is one of them, a linear system in the tests is
@@ -64,6 +65,7 @@
 //! The error of an attitude is unique up to half a turn, Euler angles at level 1 up to its small angles. Process noise is of first
 //! order in the step. Matrices are of run-time size, so that a step allocates.
 
+mod any;
 mod belief;
 mod error;
 mod estimate;
@@ -75,10 +77,11 @@ mod process;
 pub mod sensor;
 mod unscented;
 
+pub use any::AnyFilter;
 pub use belief::{Belief, Innovation, Verdict};
 pub use error::EstimationError;
 pub use estimate::{Estimate, EstimateError, estimate};
-pub use estimator::Estimator;
+pub use estimator::{Estimator, EstimatorMemory, RememberedInstant, RememberedReading};
 pub use extended::ExtendedFilter;
 pub use filter::{Filter, Observation};
 pub use level::{InitialUncertainty, LevelError, LevelProcess, ProcessNoise, places};

@@ -90,7 +90,10 @@ impl Flight {
         let end = match &report.status {
             RunStatus::Completed => End::Done,
             RunStatus::Condition { name } if name == ARRIVED => End::Done,
-            RunStatus::Condition { .. } | RunStatus::Below { .. } | RunStatus::Diverged { .. } => End::Early,
+            RunStatus::Condition { .. }
+            | RunStatus::Below { .. }
+            | RunStatus::Diverged { .. }
+            | RunStatus::EstimatorFailed { .. } => End::Early,
             RunStatus::Interrupted => End::Interrupted,
             RunStatus::RecordingFailed { .. } => End::RecordingFailed,
         };

@@ -56,10 +56,10 @@ mod read;
 pub use build::{AgentInfo, AgentKind, Built};
 pub use error::{KeyError, ScenarioError};
 pub use file::{
-    Algorithm, AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, EtsFile, Format, Law,
-    LevelChange, LimitsFile, LoopFile, OptimiseFile, OutputFile, PID, POSITION, PathFile, Point, Polynomial,
-    ProcessNoiseFile, QuadrotorFile, ReferenceFile, Scenario, SetPoint, StartFile, StopFile, TargetFile,
-    TurbulenceFile, VariableFile, WeightsFile, WindFile, WindStep,
+    Algorithm, AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, EstimatorFile, EtsFile,
+    Format, Law, LevelChange, LimitsFile, LoopFile, OptimiseFile, OutputFile, PID, POSITION, PathFile, Point,
+    Polynomial, ProcessNoiseFile, QuadrotorFile, ReferenceFile, Scenario, SetPoint, StartFile, StopFile,
+    TargetFile, TurbulenceFile, VariableFile, WeightsFile, WindFile, WindStep,
 };
 pub use flight::{End, Ending, Flight};
 pub use key::{get, set};

@@ -1,7 +1,8 @@
 //! A flight in a few numbers, summed up while it flies.
 //!
 //! ```text
-//! rms error    √(1/N Σ |r − r_d|²)          over the rows
+//! rms error    √(1/N Σ |r − r_d|²)          over the rows; of an estimate √(1/N Σ |r̂ − r|²)
+//! its claim    √(1/N Σ σ_x² + σ_y² + σ_z²)   by the estimator's own standard deviations
 //! energy       Σ ½ (P_k + P_k−1) (t_k − t_k−1)   trapezium
 //! tilt         acos(cos φ cos θ)
 //! ```
@@ -39,6 +40,16 @@ struct Quadrotor {
     final_error: f64,
     largest_tilt: f64,
     least_height: f64,
+    estimate: Option<Estimate>,
+}
+
+/// Columns and sums of an estimator.
+#[derive(Debug)]
+struct Estimate {
+    position: [usize; 3],
+    deviation: [usize; 3],
+    squares: f64,
+    variances: f64,
 }
 
 /// Columns and sums of a station.
@@ -78,6 +89,10 @@ impl MetricsBox {
             push(&q.name, "position_error_final_m", q.final_error);
             push(&q.name, "tilt_max_deg", q.largest_tilt.to_degrees());
             push(&q.name, "height_min_m", q.least_height);
+            if let Some(e) = &q.estimate {
+                push(&q.name, "estimate_error_rms_m", (e.squares / rows).sqrt());
+                push(&q.name, "estimate_sd_rms_m", (e.variances / rows).sqrt());
+            }
         }
         for s in &self.stations {
             for ((_, energy), value) in POWERS.iter().zip(s.energies) {
@@ -137,6 +152,14 @@ impl Quadrotor {
             final_error: 0.0,
             largest_tilt: 0.0,
             least_height: f64::INFINITY,
+            estimate: xyz("estimate.position").zip(xyz("estimate.sd.position")).map(
+                |(position, deviation)| Estimate {
+                    position,
+                    deviation,
+                    squares: 0.0,
+                    variances: 0.0,
+                },
+            ),
         })
     }
 
@@ -149,6 +172,11 @@ impl Quadrotor {
         let [roll, pitch] = self.tilt.map(|place| row[place]);
         self.largest_tilt = self.largest_tilt.max((roll.cos() * pitch.cos()).acos());
         self.least_height = self.least_height.min(-row[self.position[2]]);
+        if let Some(e) = &mut self.estimate {
+            let missed = |i: usize| row[e.position[i]] - row[self.position[i]];
+            e.squares += (0..3).map(|i| missed(i).powi(2)).sum::<f64>();
+            e.variances += e.deviation.map(|place| row[place].powi(2)).iter().sum::<f64>();
+        }
     }
 }
 

@@ -21,6 +21,10 @@ pub(crate) const READY: [(&str, &str); 18] = [
     ("waypoints", include_str!("../../../scenarios/waypoints.toml")),
     ("gust", include_str!("../../../scenarios/gust.toml")),
     (
+        "estimator-in-the-loop",
+        include_str!("../../../scenarios/estimator-in-the-loop.toml"),
+    ),
+    (
         "near-the-ground",
         include_str!("../../../scenarios/near-the-ground.toml"),
     ),

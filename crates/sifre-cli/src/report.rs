@@ -98,6 +98,7 @@ pub(crate) fn in_words(event: &Event) -> String {
         }
         sifre::AgentEvent::TargetLost => "target lost".to_owned(),
         sifre::AgentEvent::TargetFound => "target found".to_owned(),
+        sifre::AgentEvent::EstimatorFailed { reason } => format!("the estimator failed: {reason}"),
         sifre::AgentEvent::Note { text } => text.to_string(),
     };
     format!("{}: {what}", event.agent)

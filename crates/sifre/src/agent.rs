@@ -168,6 +168,14 @@ pub enum MemoryError {
     /// It asks for a model that can't be built.
     #[error(transparent)]
     Build(#[from] quad_dynamics::BuildError),
+    /// Only one of what was saved and of what is here has an estimator.
+    #[error(
+        "one of the saved state and the agent has an estimator, the other has none: put the agent together as it was"
+    )]
+    OneHasAnEstimator,
+    /// Its estimator can't take up what it remembered.
+    #[error("its estimator: {0}")]
+    Estimator(#[from] quad_estimation::EstimationError),
     /// Its controller can't fly that model.
     #[error(transparent)]
     Controller(#[from] quad_ndi::ControllerError),
@@ -194,7 +202,8 @@ impl MemoryError {
 /// Something with a pose that is stepped, sees the other agents, and records itself.
 ///
 /// [`Agent::decide`] and [`Agent::advance`] must depend on the agent, its past and the [`Moment`] alone (no clock,
-/// no generator that isn't saved), and must not allocate: then order, threads, saving and resuming can't
+/// no generator that isn't saved), and must not allocate (a quadrotor's
+/// [`Estimation`](crate::quadrotor::Estimation) does): then order, threads, saving and resuming can't
 /// change a result.
 pub trait Agent: Any + Debug + Send {
     /// Its name, unique in a simulation.

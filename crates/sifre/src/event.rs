@@ -19,6 +19,11 @@ pub enum AgentEvent {
     TargetLost,
     /// A tracker sees its target (again).
     TargetFound,
+    /// A quadrotor's estimator failed, which ends the run.
+    EstimatorFailed {
+        /// Why, in words.
+        reason: String,
+    },
     /// Whatever another kind of agent has to tell.
     Note {
         /// In words.

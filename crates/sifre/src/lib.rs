@@ -44,6 +44,7 @@
 //! | black box | [`BlackBox`] | [`CsvBox`](black_box::CsvBox), [`JsonLinesBox`](black_box::JsonLinesBox), `ParquetBox`, [`MemoryBox`](black_box::MemoryBox) |
 //! | agent | [`Agent`] | [`Quadrotor`], [`Ets`], [`Target`] |
 //! | quadrotor | [`Quadrotor`] | flown by a [`Pilot`](quadrotor::Pilot): any controller or [`OpenLoop`](quadrotor::OpenLoop); asked by [`Guidance`]: [`Mission`], [`Follow`], [`Facing`], a fixed reference |
+//! | estimator on board | [`Estimation`](quadrotor::Estimation) | in the loop or beside it: any level, extended or unscented |
 //! | energy transmission system | [`Ets`] | |
 //! | optimiser | [`Optimiser`] | [`RandomSearch`] |
 //!
@@ -58,8 +59,8 @@
 //!
 //! # Ends
 //!
-//! [`Simulation::run`] ends at its time, at a [`StopCondition`], where an agent's numbers stop being numbers, where the
-//! [`Observer`] asks for it (Ctrl-C), or where a black box fails: each is a [`RunStatus`] and loses nothing. The
+//! [`Simulation::run`] ends at its time, at a [`StopCondition`], where an agent's numbers stop being numbers, where an
+//! estimator's filter refuses to go on, where the [`Observer`] asks for it (Ctrl-C), or where a black box fails: each is a [`RunStatus`] and loses nothing. The
 //! simulation can go on from there, or be saved ([`Simulation::save`]) and resumed elsewhere
 //! ([`Simulation::resume`]) as if nothing had been.
 //!

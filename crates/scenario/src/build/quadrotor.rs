@@ -2,10 +2,12 @@
 
 use super::{AgentInfo, AgentKind, Built, Task, controller, own_seed, start};
 use crate::error::ScenarioError;
-use crate::file::{LevelChange, QuadrotorFile, Scenario, TurbulenceFile};
+use crate::file::{EstimatorFile, LevelChange, QuadrotorFile, Scenario, TurbulenceFile};
 use crate::library::{Files, vehicle};
 use quad_dynamics::{CommandLimits, Level, Phenomenon, PhenomenonSet};
-use sifre::quadrotor::{LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
+use sifre::quadrotor::{
+    EstimateUse, Estimation, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind,
+};
 use sifre::{Facing, Member, Quadrotor, Schedule, ScheduleError};
 use std::sync::Arc;
 
@@ -44,6 +46,10 @@ pub(super) fn add(
         },
         velocity_m_s: begin.velocity.into(),
         script: script(file, own_seed(scenario.seed, &file.name))?,
+        estimation: file.estimator.as_ref().map(|estimator| Estimation {
+            vehicle: Some(believed),
+            ..estimation(estimator, own_seed(scenario.seed, &file.name))
+        }),
         substeps: file.substeps,
         ..setup
     };
@@ -59,6 +65,19 @@ pub(super) fn add(
         },
     });
     Ok(())
+}
+
+/// Its sensors and filter.
+fn estimation(file: &EstimatorFile, seed: u64) -> Estimation {
+    let level = choice(file.level, file.phenomena.as_ref());
+    Estimation {
+        filter: file.filter,
+        used: match file.in_loop {
+            true => EstimateUse::InLoop,
+            false => EstimateUse::Beside,
+        },
+        ..Estimation::new(level, file.sensors.suite(), seed)
+    }
 }
 
 fn choice(level: Level, phenomena: Option<&PhenomenonSet>) -> LevelChoice {

@@ -1,6 +1,7 @@
 //! The scenario file: the TOML schema as types. Units are in the keys; unknown keys are errors.
 
 mod controller;
+mod estimator;
 mod optimise;
 mod output;
 mod quadrotor;
@@ -8,6 +9,7 @@ mod reference;
 mod station;
 
 pub use controller::{AttitudeFile, ControllerFile, Law, LoopFile, PID, POSITION};
+pub use estimator::EstimatorFile;
 pub use optimise::{Algorithm, LimitsFile, OptimiseFile, VariableFile, WeightsFile};
 pub use output::{BoxLimits, Format, OutputFile, StopFile};
 pub use quadrotor::{

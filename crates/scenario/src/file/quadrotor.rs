@@ -1,6 +1,6 @@
 //! Quadrotors in a scenario file.
 
-use super::{ControllerFile, ReferenceFile};
+use super::{ControllerFile, EstimatorFile, ReferenceFile};
 use quad_dynamics::{Level, Phenomenon, PhenomenonSet, Shear};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -40,6 +40,9 @@ pub struct QuadrotorFile {
     /// Name of an agent that its nose is to point at, whatever the reference's heading.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub facing: Option<String>,
+    /// Sensors and a Kalman filter on board; it knows its flight exactly if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimator: Option<EstimatorFile>,
     /// The wind that it flies in.
     #[serde(default)]
     pub wind: WindFile,
@@ -155,7 +158,7 @@ fn qball_x4() -> String {
     "qball-x4".to_owned()
 }
 
-const fn three() -> Level {
+pub(super) const fn three() -> Level {
     Level::Three
 }
 
@@ -171,11 +174,11 @@ fn object(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "object" })
 }
 
-fn level(_: &mut SchemaGenerator) -> Schema {
+pub(super) fn level(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "type": "integer", "minimum": 1, "maximum": Level::ALL.len() })
 }
 
-fn phenomena(_: &mut SchemaGenerator) -> Schema {
+pub(super) fn phenomena(_: &mut SchemaGenerator) -> Schema {
     let names = Phenomenon::ALL.map(Phenomenon::name);
     json_schema!({ "type": "array", "uniqueItems": true, "items": { "enum": names } })
 }

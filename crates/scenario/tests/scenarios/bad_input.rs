@@ -184,3 +184,30 @@ fn exact_controllers_and_references() {
         &["period_s", "zero"],
     );
 }
+
+#[test]
+fn exact_estimators_that_are_wrong_are_refused() {
+    let with = |keys: &str| one(SECOND, &format!("estimator = {{ {keys} }}"), "");
+    says(
+        &with("sensor = \"good\""),
+        &["no key `quadrotor[0].estimator.sensor`", "sensors"],
+    );
+    says(
+        &with("sensors = \"worst\""),
+        &["estimator.sensors", "worst", "very-poor"],
+    );
+    says(
+        &with("filter = \"particle\""),
+        &["estimator.filter", "particle", "unscented"],
+    );
+    // c3 flies by thrusts, which a filter on level 2 does not know.
+    says(
+        &with("level = 2"),
+        &["\"alpha\"", "estimator", "in the loop", "2", "3"],
+    );
+    // Beside the loop any level will do.
+    let beside = with("level = 2, in_loop = false");
+    let scenario =
+        scenario::Scenario::from_toml_str(&beside, "test").unwrap_or_else(|error| panic!("{error}"));
+    assert!(scenario.build(&()).is_ok());
+}

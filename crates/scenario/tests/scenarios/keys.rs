@@ -79,6 +79,11 @@ fn agree_the_schema_and_the_types_know_the_same_keys() {
             .cloned()
             .collect()
     };
+    let estimator = toml::Value::try_from(scenario::EstimatorFile::default()).unwrap();
+    let known = properties(&schema["$defs"]["EstimatorFile"]);
+    for key in estimator.as_table().unwrap().keys() {
+        assert!(known.contains(key), "EstimatorFile.{key}");
+    }
     for (key, list) in written.as_table().unwrap() {
         assert!(properties(&schema).contains(key), "{key}");
         let definition = match key.as_str() {

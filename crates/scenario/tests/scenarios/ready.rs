@@ -317,3 +317,46 @@ fn prop_the_swarm_keeps_together() {
         }
     }
 }
+
+/// What the filter says of its error is what its error is, within a factor of two either way. The controller holds the
+/// estimate where without an estimator it holds the vehicle: the two errors add at most, but for what the estimate has wrong
+/// of velocity and attitude, for which half as much again is allowed. Beside the loop nothing changes.
+#[test]
+fn prop_the_estimator_is_in_the_loop() {
+    let text = ready("estimator-in-the-loop");
+    let flown = done("estimator-in-the-loop");
+    let (error, stated) = (
+        flown.metric("alpha.estimate_error_rms_m"),
+        flown.metric("alpha.estimate_sd_rms_m"),
+    );
+    assert!(
+        error < 2.0 * stated && stated < 2.0 * error,
+        "errs by {error} m and says {stated} m"
+    );
+    let (begin, end) = (text.find("[quadrotor.estimator]"), text.find("[output]"));
+    let table = begin.expect("it has one")..end.expect("it comes after");
+    let without = fly(&[&text[..table.start], &text[table.end..]].concat());
+    let tracking = |flown: &Flown| flown.metric("alpha.position_error_rms_m");
+    assert!(
+        tracking(&flown) < 1.5 * (tracking(&without) + error),
+        "tracks to {} m in the loop, to {} m without, and errs by {error} m",
+        tracking(&flown),
+        tracking(&without)
+    );
+    // It is flown by the estimate, not by the truth.
+    assert_ne!(
+        flown.column("alpha.position.x"),
+        without.column("alpha.position.x")
+    );
+    let beside = fly(&text.replace("in_loop = true ", "in_loop = false "));
+    for channel in [
+        "position.x",
+        "velocity.y",
+        "attitude.pitch",
+        "thrust.1",
+        "command.4",
+    ] {
+        let channel = format!("alpha.{channel}");
+        assert_eq!(beside.column(&channel), without.column(&channel), "{channel}");
+    }
+}

@@ -255,8 +255,15 @@ fn along(mean: &Vector3<f64>, gust: Vector3<f64>) -> Vector3<f64> {
 }
 
 /// Which of the agent's steps begins at this instant.
-fn step_number(now: &Moment<'_>) -> u64 {
+pub(super) fn step_number(now: &Moment<'_>) -> u64 {
     now.time_ns / now.step.ns()
+}
+
+/// The generator of a stream of a seed.
+pub(super) fn random(seed: u64, stream: u64) -> ChaCha8Rng {
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(stream);
+    generator
 }
 
 /// Standard normal numbers of one step.
@@ -264,9 +271,7 @@ struct Normals(ChaCha8Rng);
 
 impl Normals {
     fn of_step(seed: u64, stream: u64) -> Self {
-        let mut generator = ChaCha8Rng::seed_from_u64(seed);
-        generator.set_stream(stream);
-        Self(generator)
+        Self(random(seed, stream))
     }
 
     fn next(&mut self) -> f64 {

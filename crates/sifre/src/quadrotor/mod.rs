@@ -1,6 +1,7 @@
 //! The quadrotor as an agent: a model of any level, a pilot, guidance, and a script of what happens to it.
 //!
 //! ```text
+//! estimate at t_k  from sensors that look at x_k, where there is an estimator
 //! decide at t_k    reference = guidance(t_k, others),  u_k = pilot(flight_k, reference) + disturbance
 //! advance          x_k+1 = Φ_h(x_k, u_k, wind)          RK4, commands and wind held
 //! ```
@@ -9,14 +10,19 @@
 //! bit. The level may change at any of the agent's instants, before it decides: the new model adopts the flight
 //! (lift or restrict, [`quad_dynamics::Snapshot`]), so position, velocity, attitude and rates go on without a
 //! jump, and thrust and torque where the new level has states for them.
+//!
+//! With an [`Estimation`] in the loop `flight_k` is what a Kalman filter makes of sensors; its file states how.
 
 mod air;
+mod estimation;
+mod memory;
 mod pilot;
 mod record;
 mod rule;
 mod setup;
 
 pub use air::{AirError, ProcessNoiseSource, STRONGEST_WIND_M_S, Turbulence, Wind};
+pub use estimation::{EstimateUse, Estimation, EstimationSetupError, FilterKind};
 pub use pilot::{OpenLoop, Pilot};
 pub use rule::{LevelRule, RuleError};
 pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};
@@ -25,8 +31,10 @@ use crate::agent::{Agent, AgentId, Directory, MemoryError, Moment, Published};
 use crate::black_box::Channel;
 use crate::error::BindError;
 use crate::event::AgentEvent;
-use crate::exact::{Exact, exact, plain};
+use crate::exact::plain;
 use air::Air;
+use estimation::Estimating;
+use memory::Restored;
 use nalgebra::Vector3;
 use quad_dynamics::{
     AnyQuadrotor, BuildError, Flight, Input, Level, Phenomenon, PhenomenonSet, Snapshot, Vehicle,
@@ -34,7 +42,6 @@ use quad_dynamics::{
 use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
 use rule::Side;
-use serde::{Deserialize, Serialize};
 
 /// A quadrotor at any level, under any pilot, with any guidance.
 #[derive(Debug)]
@@ -46,6 +53,8 @@ pub struct Quadrotor {
     input: Input<f64>,
     /// Wind and gusts about it.
     air: Air,
+    /// Sensors and filter.
+    estimating: Option<Box<Estimating>>,
     /// Charge drawn, A h, while it flies at a level without a battery.
     charge_drawn: f64,
     /// What hover draws at the levels of the script that have a battery, A h/s.
@@ -56,27 +65,12 @@ pub struct Quadrotor {
     entry: Option<usize>,
     /// The agent whose distance the rule looks at.
     near: Option<AgentId>,
-    /// One RK4 step per step and no disturbance of commands or state: model and controller may fly as one.
+    /// One RK4 step per step, no disturbance of commands or state and no estimator: model and controller may fly as one.
     is_plain: bool,
 }
 
 /// Step over which the current of hover is taken, s: any, it hardly changes in a second.
 const DRAW_STEP_S: f64 = 1e-3;
-
-/// All that a quadrotor needs to go on.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Memory {
-    level: Level,
-    phenomena: PhenomenonSet,
-    entry: Option<usize>,
-    state: Vec<Exact>,
-    pilot: Vec<Exact>,
-    commands: [Exact; 4],
-    wind: [Exact; 3],
-    air: [Exact; 5],
-    charge_drawn: Exact,
-}
 
 /// A model of the vehicle in hover.
 fn model(
@@ -109,7 +103,7 @@ impl Quadrotor {
     ///
     /// # Errors
     /// A model that can't be built, now or at a scripted level; a pilot above a model's level; numbers that are not
-    /// finite.
+    /// finite; an estimator that can't be.
     pub fn new(setup: Setup) -> Result<Self, QuadrotorError> {
         setup.check_numbers()?;
         let build = |choice: &LevelChoice| {
@@ -126,6 +120,11 @@ impl Quadrotor {
             set_moving(&mut quadrotor, setup.velocity_m_s.into());
         }
         let scripted = setup.script.choices().map(build).collect::<Result<Vec<_>, _>>()?;
+        let estimating = setup.estimation.as_ref().map(|estimation| {
+            Estimating::new(estimation, setup.pilot.level(), &setup.vehicle, &quadrotor)
+                .map(Box::new)
+                .map_err(|error| QuadrotorError::estimation(setup.name.clone(), error))
+        });
         let models = std::iter::once(&quadrotor).chain(&scripted);
         let hover_draw = models.map(hover_draw).fold(0.0, f64::max);
         Ok(Self {
@@ -133,6 +132,7 @@ impl Quadrotor {
             input: quadrotor.hover_input(),
             quadrotor,
             air: Air::new(&setup.script.wind),
+            estimating: estimating.transpose()?,
             charge_drawn: 0.0,
             hover_draw,
             scripted,
@@ -142,7 +142,8 @@ impl Quadrotor {
                 && setup.substeps.get() == 1
                 && setup.script.command_offset.values().next().is_none()
                 && setup.script.wind.turbulence.is_none()
-                && setup.script.process_noise.is_none(),
+                && setup.script.process_noise.is_none()
+                && setup.estimation.is_none(),
             setup,
         })
     }
@@ -168,9 +169,13 @@ impl Quadrotor {
     }
 
     /// Puts it in the middle of a flight: from now on it flies as if it had flown like this so far, under its present
-    /// input. What it remembers of its own flight is forgotten; for starts in motion.
+    /// input. What it remembers of its own flight is forgotten; for starts in motion. An estimator is told.
     pub fn put_in_flight(&mut self, flight: &Snapshot<f64>) {
         self.quadrotor.adopt(flight, &self.input);
+        if let Some(estimating) = &mut self.estimating {
+            // It refuses a flight whose numbers are none, with which the run ends at once.
+            let _ = estimating.put_in_flight(&self.quadrotor, &self.input);
+        }
     }
 
     /// The same flight goes on at another level.
@@ -202,7 +207,10 @@ impl Quadrotor {
         }
         next.adopt(&snapshot, &self.input);
         let (from, to) = (self.quadrotor.level(), next.level());
-        self.setup.pilot.level_changed(&self.quadrotor.flight());
+        // A pilot that sees estimates sees those of the same model as before.
+        if !self.estimating.as_ref().is_some_and(|e| e.is_in_loop()) {
+            self.setup.pilot.level_changed(&self.quadrotor.flight());
+        }
         self.quadrotor = next;
         AgentEvent::LevelChanged { from, to }
     }
@@ -283,15 +291,27 @@ impl Quadrotor {
         Some(self.go_on_as(next))
     }
 
-    /// Its memory, checked: the model it flies and nothing changed yet.
-    fn read(&self, memory: &serde_json::Value) -> Result<(Memory, AnyQuadrotor<f64>), MemoryError> {
-        let memory = Memory::deserialize(memory)?;
-        check_pairing(self.setup.pilot.level(), memory.level)?;
-        let vehicle = &self.setup.vehicle;
-        let mut quadrotor = model(vehicle, memory.level, &memory.phenomena, Vector3::zeros(), 0.0)?;
-        MemoryError::check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
-        quadrotor.read_state(&plain(&memory.state));
-        Ok((memory, quadrotor))
+    /// Sensors and filter at this instant; tells if the filter failed.
+    fn estimate(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+        let estimating = self.estimating.as_mut()?;
+        let error = estimating.live(&self.quadrotor, &self.input, now).err()?;
+        let reason = error.to_string();
+        Some(AgentEvent::EstimatorFailed { reason })
+    }
+
+    /// The pilot's commands, by what it may see.
+    fn piloted(&mut self, now: &Moment<'_>) -> [f64; 4] {
+        let Some(estimating) = &mut self.estimating else {
+            return self.setup.pilot.commands(&self.quadrotor, &self.reference, now);
+        };
+        let seen = if estimating.is_in_loop() {
+            estimating.believed()
+        } else {
+            &self.quadrotor
+        };
+        let commands = self.setup.pilot.commands(seen, &self.reference, now);
+        estimating.send(commands);
+        commands
     }
 }
 
@@ -307,6 +327,9 @@ impl Agent for Quadrotor {
     fn bind(&mut self, directory: &Directory<'_>) -> Result<(), BindError> {
         if let Some(rule) = &self.setup.script.rule {
             self.near = Some(directory.find(&rule.near)?);
+        }
+        if let Some(estimating) = &mut self.estimating {
+            estimating.bind(directory.step.ns());
         }
         Ok(self.setup.guidance.bind(directory)?)
     }
@@ -326,9 +349,11 @@ impl Agent for Quadrotor {
 
     fn decide(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
         let event = self.follow_script(now);
+        // There is room for one event; that which ends the run goes first.
+        let event = self.estimate(now).or(event);
         self.reference = self.setup.guidance.reference(now);
         self.input.wind = self.wind(now);
-        self.input.commands = self.setup.pilot.commands(&self.quadrotor, &self.reference, now);
+        self.input.commands = self.piloted(now);
         if let Some(offset) = self.setup.script.command_offset.at(now.time_ns) {
             self.input.commands = std::array::from_fn(|i| self.input.commands[i] + offset[i]);
         }
@@ -368,7 +393,7 @@ impl Agent for Quadrotor {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        record::channels()
+        record::channels(self.estimating.is_some())
     }
 
     fn record(&self, row: &mut [f64]) {
@@ -376,24 +401,17 @@ impl Agent for Quadrotor {
     }
 
     fn save(&self) -> Result<serde_json::Value, serde_json::Error> {
-        let mut state = vec![0.0; self.quadrotor.state_len()];
-        self.quadrotor.write_state(&mut state);
-        serde_json::to_value(Memory {
-            level: self.quadrotor.level(),
-            phenomena: self.quadrotor.phenomena().clone(),
-            entry: self.entry,
-            state: exact(&state),
-            pilot: exact(&self.setup.pilot.memory()),
-            commands: self.input.commands.map(Exact),
-            wind: <[f64; 3]>::from(self.input.wind).map(Exact),
-            air: self.air.memory().map(Exact),
-            charge_drawn: Exact(self.charge_drawn),
-        })
+        serde_json::to_value(self.memory())
     }
 
     fn restore(&mut self, memory: &serde_json::Value) -> Result<(), MemoryError> {
-        let (memory, quadrotor) = self.read(memory)?;
+        let Restored {
+            memory,
+            quadrotor,
+            estimating,
+        } = self.read(memory)?;
         self.setup.pilot.restore(&plain(&memory.pilot))?;
+        self.estimating = estimating;
         self.quadrotor = quadrotor;
         self.entry = memory.entry;
         self.air = Air::remembered(memory.air.map(|x| x.0));

@@ -5,7 +5,7 @@ use crate::black_box::{Channel, Frame, Role};
 use nalgebra::Vector3;
 
 /// Its channels, in the order of [`write`].
-pub(super) fn channels() -> Vec<Channel> {
+pub(super) fn channels(is_estimated: bool) -> Vec<Channel> {
     let (xyz, rotors) = (["x", "y", "z"], ["1", "2", "3", "4"]);
     let mut all = Vec::new();
     all.extend(Channel::group("position", xyz, Role::State, "m", Frame::World));
@@ -50,7 +50,24 @@ pub(super) fn channels() -> Vec<Channel> {
         "rad",
         Frame::Scalar,
     ));
+    if is_estimated {
+        all.extend(estimates());
+    }
     all
+}
+
+/// What an estimator says: the flight, and standard deviations of its position.
+fn estimates() -> Vec<Channel> {
+    let (xyz, angles) = (["x", "y", "z"], ["roll", "pitch", "yaw"]);
+    [
+        ("estimate.position", xyz, "m", Frame::World),
+        ("estimate.velocity", xyz, "m/s", Frame::World),
+        ("estimate.attitude", angles, "rad", Frame::Scalar),
+        ("estimate.sd.position", xyz, "m", Frame::World),
+    ]
+    .into_iter()
+    .flat_map(|(name, ends, unit, frame)| Channel::group(name, ends, Role::Output, unit, frame))
+    .collect()
 }
 
 /// One number per channel.
@@ -75,4 +92,11 @@ pub(super) fn write(of: &Quadrotor, row: &mut [f64]) {
     put(&vector(&flat.position));
     put(&vector(&flat.velocity));
     put(&[flat.yaw]);
+    if let Some(estimating) = &of.estimating {
+        let estimate = estimating.estimate();
+        put(&vector(&estimate.position));
+        put(&vector(&estimate.velocity));
+        put(&vector(&estimate.attitude.euler_angles().vector()));
+        put(&estimate.deviations().as_slice()[..3]);
+    }
 }

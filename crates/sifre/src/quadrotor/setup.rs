@@ -1,6 +1,7 @@
 //! How a quadrotor agent is put together.
 
 use super::air::{AirError, ProcessNoiseSource, Wind, check_speed};
+use super::estimation::{Estimation, EstimationSetupError};
 use super::pilot::Pilot;
 use super::rule::{LevelRule, RuleError};
 use crate::guidance::Guidance;
@@ -176,6 +177,8 @@ pub struct Setup {
     pub guidance: Box<dyn Guidance>,
     /// What happens to it.
     pub script: Script,
+    /// Sensors and a filter on board; none if its pilot is to see the flight as it is and nobody estimates it.
+    pub estimation: Option<Estimation>,
     /// How its model is integrated, commands and wind held.
     pub method: FixedStep,
     /// How many equal steps the integrator takes from one of the agent's instants to the next.
@@ -201,6 +204,7 @@ impl Setup {
             pilot: Box::new(pilot),
             guidance: Box::new(guidance),
             script: Script::default(),
+            estimation: None,
             method: FixedStep::Rk4,
             substeps: NonZeroU32::MIN,
         }
@@ -271,6 +275,14 @@ pub enum QuadrotorError {
         /// Why.
         source: Box<ControllerError>,
     },
+    /// An estimator that can't be.
+    #[error("quadrotor \"{name}\": {source}")]
+    Estimation {
+        /// The agent.
+        name: String,
+        /// Why.
+        source: Box<EstimationSetupError>,
+    },
     /// A start that isn't finite.
     #[error("quadrotor \"{name}\": it can't start at {value}: position, heading and velocity must be finite")]
     BadStart {
@@ -317,6 +329,11 @@ impl QuadrotorError {
     pub(super) fn build(name: String, source: BuildError) -> Self {
         let source = Box::new(source);
         Self::Build { name, source }
+    }
+
+    pub(super) fn estimation(name: String, source: EstimationSetupError) -> Self {
+        let source = Box::new(source);
+        Self::Estimation { name, source }
     }
 
     pub(super) fn controller(name: String, source: ControllerError) -> Self {

@@ -4,7 +4,7 @@ use super::group::Work;
 use super::{LastSeen, Observer, PROGRESS_EVERY, Phase, Progress, RunReport, RunStatus, Scene, Simulation};
 use crate::clock::{instant_ns, seconds};
 use crate::error::SimulationError;
-use crate::event::Event;
+use crate::event::{AgentEvent, Event};
 
 impl Simulation {
     /// Runs to an end time, s, or to whatever ends the run before; can be called again with a later end.
@@ -61,11 +61,12 @@ impl Simulation {
         if let Some(diverged) = self.publish() {
             return Some(diverged);
         }
-        let stop = self.stop_reason();
+        let mut stop = self.stop_reason();
         let advance = stop.is_none() && self.now_ns < end_ns;
         let (moved, happened) = self.decide(advance);
         if happened {
-            self.note_events(observer);
+            let failed = self.note_events(observer);
+            stop = stop.or(failed);
         }
         self.phase = if advance {
             *agent_steps += moved;
@@ -142,8 +143,8 @@ impl Simulation {
         count
     }
 
-    /// Collects what happened at this instant, in the order of names.
-    fn note_events(&mut self, observer: &mut dyn Observer) {
+    /// Collects what happened at this instant, in the order of names; why it ends the run, if it does.
+    fn note_events(&mut self, observer: &mut dyn Observer) -> Option<RunStatus> {
         let first = self.events.len();
         for slot in self.groups.iter_mut().flat_map(|group| &mut group.slots) {
             if let Some(what) = slot.event.take() {
@@ -158,6 +159,13 @@ impl Simulation {
         self.events[first..]
             .iter()
             .for_each(|event| observer.event(event));
+        self.events[first..].iter().find_map(|event| match &event.what {
+            AgentEvent::EstimatorFailed { reason } => Some(RunStatus::EstimatorFailed {
+                agent: event.agent.clone(),
+                reason: reason.clone(),
+            }),
+            _ => None,
+        })
     }
 
     /// Leaves the present instant for the next of anyone, or for the end.

@@ -145,6 +145,13 @@ pub enum RunStatus {
         /// The last finite state; `None` if it had none from the start.
         last: Option<Box<LastSeen>>,
     },
+    /// The filter of an agent's estimator refused to go on; it keeps its last good belief.
+    EstimatorFailed {
+        /// The agent; the first by name if there are several.
+        agent: String,
+        /// Why, in words.
+        reason: String,
+    },
     /// The observer asked for it.
     Interrupted,
     /// A black box failed; the simulation itself is sound and can go on without it.
@@ -175,6 +182,9 @@ impl fmt::Display for RunStatus {
             }
             Self::Diverged { agent, last: None } => {
                 write!(f, "\"{agent}\" begins with numbers that are none")
+            }
+            Self::EstimatorFailed { agent, reason } => {
+                write!(f, "the estimator of \"{agent}\" failed: {reason}")
             }
             Self::Interrupted => write!(f, "interrupted"),
             Self::RecordingFailed { source } => write!(f, "{source}"),

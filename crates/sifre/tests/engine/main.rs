@@ -5,6 +5,7 @@ mod air;
 mod bad_input;
 mod convergence;
 mod dynamic_resolution;
+mod estimating;
 mod ets_agent;
 mod laws;
 mod levels;

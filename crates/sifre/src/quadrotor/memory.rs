@@ -1,0 +1,74 @@
+//! What a quadrotor needs to go on later, and how it is read.
+
+use super::estimation::{Estimating, EstimatingMemory};
+use super::{Quadrotor, model};
+use crate::agent::MemoryError;
+use crate::exact::{Exact, exact, plain};
+use nalgebra::Vector3;
+use quad_dynamics::{AnyQuadrotor, Level, PhenomenonSet};
+use quad_ndi::check_pairing;
+use serde::{Deserialize, Serialize};
+
+/// All that a quadrotor needs to go on.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Memory {
+    pub(super) level: Level,
+    pub(super) phenomena: PhenomenonSet,
+    pub(super) entry: Option<usize>,
+    pub(super) state: Vec<Exact>,
+    pub(super) pilot: Vec<Exact>,
+    pub(super) commands: [Exact; 4],
+    pub(super) wind: [Exact; 3],
+    pub(super) air: [Exact; 5],
+    pub(super) charge_drawn: Exact,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) estimating: Option<EstimatingMemory>,
+}
+
+/// What a memory holds, checked.
+pub(super) struct Restored {
+    pub(super) memory: Memory,
+    pub(super) quadrotor: AnyQuadrotor<f64>,
+    pub(super) estimating: Option<Box<Estimating>>,
+}
+
+impl Quadrotor {
+    /// All it needs to go on.
+    pub(super) fn memory(&self) -> Memory {
+        let mut state = vec![0.0; self.quadrotor.state_len()];
+        self.quadrotor.write_state(&mut state);
+        Memory {
+            level: self.quadrotor.level(),
+            phenomena: self.quadrotor.phenomena().clone(),
+            entry: self.entry,
+            state: exact(&state),
+            pilot: exact(&self.setup.pilot.memory()),
+            commands: self.input.commands.map(Exact),
+            wind: <[f64; 3]>::from(self.input.wind).map(Exact),
+            air: self.air.memory().map(Exact),
+            charge_drawn: Exact(self.charge_drawn),
+            estimating: self.estimating.as_ref().map(|e| e.memory()),
+        }
+    }
+
+    /// Its memory, checked: the model it flies and nothing changed yet.
+    pub(super) fn read(&self, memory: &serde_json::Value) -> Result<Restored, MemoryError> {
+        let mut memory = Memory::deserialize(memory)?;
+        check_pairing(self.setup.pilot.level(), memory.level)?;
+        let vehicle = &self.setup.vehicle;
+        let mut quadrotor = model(vehicle, memory.level, &memory.phenomena, Vector3::zeros(), 0.0)?;
+        MemoryError::check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
+        quadrotor.read_state(&plain(&memory.state));
+        let estimating = match (&self.estimating, memory.estimating.take()) {
+            (None, None) => None,
+            (Some(estimating), Some(memory)) => Some(Box::new(estimating.remembered(memory)?)),
+            _ => return Err(MemoryError::OneHasAnEstimator),
+        };
+        Ok(Restored {
+            memory,
+            quadrotor,
+            estimating,
+        })
+    }
+}
