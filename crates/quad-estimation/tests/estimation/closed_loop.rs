@@ -22,8 +22,6 @@ enum Loop {
 
 /// Root mean squares over the second half of a flight.
 struct Flown {
-    /// Of the distance from the reference, m.
-    tracking: f64,
     /// Of the estimate's position error, m, and of what the filter says of it.
     position: f64,
     stated: f64,
@@ -62,7 +60,7 @@ fn fly(filter_level: Level, quality: Quality, which: Loop, seed: u64) -> Flown {
     settings.position.settling_time_s = 5.0;
     let mut controller = AnyController::C3(C3::new(&vehicle, &settings).unwrap().into());
     let steps = 3000;
-    let (mut tracking, mut position, mut stated) = (0.0, 0.0, 0.0);
+    let (mut position, mut stated) = (0.0, 0.0);
     for k in 1..=steps {
         let t = k as f64 * STEP_S;
         let reference = Reference::hold(Vector3::new((0.5 * t).sin(), 0.0, -1.5), 0.2);
@@ -84,14 +82,12 @@ fn fly(filter_level: Level, quality: Quality, which: Loop, seed: u64) -> Flown {
         if k > steps / 2 {
             let estimate = estimator.estimate();
             let body = truth.snapshot(&input).body;
-            tracking += (reference.flat.position - body.position).norm_squared();
             position += estimate.error(&body).position.norm_squared();
             stated += estimate.deviations().fixed_rows::<3>(0).norm_squared();
         }
     }
     let rms = |sum: f64| (sum / (steps - steps / 2) as f64).sqrt();
     Flown {
-        tracking: rms(tracking),
         position: rms(position),
         stated: rms(stated),
     }
