@@ -2,6 +2,7 @@
 
 use std::env;
 use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 const USAGE: &str = "\
@@ -41,6 +42,12 @@ fn main() -> ExitCode {
     }
 }
 
+/// The workspace's manifest: that of the checkout that Cargo runs this in, which may share its build folder with others.
+fn workspace() -> PathBuf {
+    let xtask = env::var_os("CARGO_MANIFEST_DIR").unwrap_or_else(|| env!("CARGO_MANIFEST_DIR").into());
+    Path::new(&xtask).join("../Cargo.toml")
+}
+
 /// Builds and runs the package `experiments` in release, with the same arguments and the same exit code.
 fn experiments(arguments: Vec<OsString>) -> ExitCode {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
@@ -53,7 +60,7 @@ fn experiments(arguments: Vec<OsString>) -> ExitCode {
             "experiments",
             "--manifest-path",
         ])
-        .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml"))
+        .arg(workspace())
         .arg("--")
         .args(arguments)
         .status();
