@@ -9,9 +9,11 @@
 //! `Δᵀ Q Δ` of the distance Δ from the spot, `Q = I − δδᵀ`, `δ = [d·e_1, d·e_2]`: an elliptic footprint, longer by `1/cos α` along δ.
 //!
 //! Product Gauss-Legendre rule over that part of the face that lies within [`REACH`] beam radii of the axis, so that the accuracy does not
-//! depend on how small the spot is: 1e-7 of the power up to 60° of incidence, 1e-6 up to 75° (tested); the light outside [`REACH`] radii is 4e-8. A rectangle takes
-//! 20 × 20 points along its sides. A disc takes 32 × 20 along axes turned so that the spot lies on the first, rows at
-//! `x_2 = a sin t`, which makes the chord `2a cos t` smooth.
+//! depend on how small the spot is: 1e-7 of the power up to 50° of incidence, 1e-6 up to 85° (tested on discs for spots from a hundredth to
+//! five times the disc; rectangles to 57°); the light outside [`REACH`] radii is 4e-8. A rectangle takes 20 × 20 points along its sides. A disc
+//! takes 32 × 20, rows at `x_2 = a sin t`, which makes the chord `2a cos t` smooth. Its axes are turned so that the spot lies on the first,
+//! which keeps the rim square to the rows where a small spot meets it; past 60° so that the footprint's long axis δ does, which no row then
+//! meets slantwise.
 //!
 //! Assumptions: a footprint over whose depth w changes by a few per cent at most (`w' tan α` up to 0.01, the reach is that of w on the axis);
 //! the air takes from all rays what it takes over the range R; a flat face without shadows. No light from behind: then `P_in = 0`.
@@ -28,6 +30,9 @@ pub const REACH: f64 = 2.8;
 
 /// Share of a disc's radius that its rule stops short of, where the arc sine's derivative is infinite.
 const RIM: f64 = 1e-12;
+
+/// Cosine of the incidence, 60°, below which a disc's rows lie across the footprint's long axis.
+const STEEP: f64 = 0.5;
 
 /// Where the beam's power goes, W.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,8 +153,13 @@ impl<R: Real> Light<R> {
                 integrate(&RULE_20, f.rows(half_height), |x_2| f.row(x_2, half_width))
             }
             Aperture::Disc { radius } => {
-                let (turned, spot) = towards(face, &link.spot);
-                let f = Footprint::new(self, ray, &turned, &spot, cos);
+                let across = face.axes.tr_mul(&ray.direction).xy();
+                let steep = cos.simd_lt(constant(STEEP));
+                let way = link
+                    .spot
+                    .zip_map(&across, |spot, across| across.select(steep, spot));
+                let (face, spot) = turned(face, &way, &link.spot);
+                let f = Footprint::new(self, ray, &face, &spot, cos);
                 let rows = f.rows(radius * constant(1.0 - RIM));
                 let angles = Interval {
                     low: (rows.low / radius).simd_asin(),
@@ -164,16 +174,17 @@ impl<R: Real> Light<R> {
     }
 }
 
-/// The face with its in-plane axes turned so that the spot lies on the first, and the spot there.
+/// The face with its in-plane axes turned so that the first is along `way`, or as they are if that is nought; and the spot there.
 #[inline(always)]
-fn towards<R: Real>(face: &Face<R>, spot: &Vector2<R>) -> (Face<R>, Vector2<R>) {
-    let distance = root(spot.norm_squared());
-    let centred = distance.simd_eq(R::zero());
+fn turned<R: Real>(face: &Face<R>, way: &Vector2<R>, spot: &Vector2<R>) -> (Face<R>, Vector2<R>) {
+    let length = root(way.norm_squared());
+    let nought = length.simd_eq(R::zero());
     let along = Vector2::new(R::one(), R::zero())
-        .zip_map(&(spot / R::one().select(centred, distance)), |none, way| {
-            none.select(centred, way)
+        .zip_map(&(way / R::one().select(nought, length)), |none, way| {
+            none.select(nought, way)
         });
     let [e_1, e_2, n] = [0, 1, 2].map(|i| face.axes.column(i).into_owned());
     let axes = Matrix3::from_columns(&[e_1 * along.x + e_2 * along.y, e_2 * along.x - e_1 * along.y, n]);
-    (Face { axes, ..*face }, Vector2::new(distance, R::zero()))
+    let spot = Vector2::new(along.dot(spot), along.x * spot.y - along.y * spot.x);
+    (Face { axes, ..*face }, spot)
 }

@@ -78,12 +78,12 @@ proptest! {
 
     /// A disc turned by α: in the beam an ellipse with the semi-axis `a cos α`. One integral of error functions, by Simpson's rule.
     #[test]
-    fn exact_tilted_disc(yaw in -1.3..1.3_f64, ratio in -1.0..0.7_f64, spot in prop::array::uniform2(-0.2..0.2_f64)) {
+    fn exact_tilted_disc(yaw in -1.48..1.48_f64, ratio in -2.0..0.7_f64, spot in prop::array::uniform2(-0.2..0.2_f64)) {
         let (a, w) = (0.15, 0.15 * 10.0_f64.powf(ratio));
         let found = received(&collimated(w), &ray(spot), &face(yaw, 0.0), &Aperture::Disc { radius: a });
         let closed = ellipse_by_simpson([a * yaw.cos(), a], spot, w);
-        // Past 60° the promise is ten times weaker.
-        let promised = if yaw.abs() < PI / 3.0 { PROMISED } else { 10.0 * PROMISED };
+        // Past 50° the promise is ten times weaker: the worst of 300 000 random cases was 4.6e-7.
+        let promised = if yaw.abs() < 50_f64.to_radians() { PROMISED } else { 10.0 * PROMISED };
         prop_assert!((found - closed).abs() < promised, "{found} {closed}");
     }
 
