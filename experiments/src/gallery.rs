@@ -63,9 +63,11 @@ pub fn page(items: &[Item], summary: &Summary, table: impl Fn(&str) -> String) -
 }
 
 fn chapter_name(chapter: &str) -> String {
-    // Not of the thesis' chapters.
-    if chapter == "est" {
-        return "Beyond: state estimation".to_owned();
+    match chapter {
+        // Not of the thesis' chapters.
+        "beyond" => return "Beyond: resolution and energy".to_owned(),
+        "est" => return "Beyond: state estimation".to_owned(),
+        _ => {}
     }
     let title = match chapter {
         "1" => "Introduction",

@@ -1,4 +1,4 @@
-//! Figure beyond.4: crossings judged by the energy they deliver and the energy that misses the receiver.
+//! Figure beyond.3: crossings judged by the energy they deliver and the energy that misses the receiver.
 
 use super::energy::{Energy, Supply, front};
 use super::optimisations::{Case, Effort};
@@ -15,7 +15,7 @@ use crate::plot::{Figure, Panel, series_style};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
-    id: "beyond.4",
+    id: "beyond.3",
     title: "Energy delivered and energy missed: the Pareto front of the crossings",
     description: "Not in the source. Crossings in 20 s at level 5, on a grid over the box of the two variables: electrical energy delivered against optical \
                   energy that passes the receiver, the hazard of overfill. (a) With the laser on all the time. (b) The best of them, with the laser \

@@ -2,19 +2,8 @@
 
 use super::optimisations::Case;
 use super::solution_table::{ENDED, table};
-use super::solutions::{NEVER_FALLS, errors, minima, trajectories};
-use crate::item::{Item, Kind, Make, Origin};
-
-/// What all of them share.
-const SHARED: Item = Item {
-    id: "",
-    title: "",
-    description: "",
-    kind: Kind::Plot,
-    origin: Origin::Simulated,
-    claims: &[],
-    make: Make::NotReproducible("a template"),
-};
+use super::solutions::{NEVER_FALLS, PLOT, errors, minima, trajectories};
+use crate::item::{Item, Kind, Make};
 
 /// Errors and cost, from rest.
 pub(super) const FIGURE_7_16: Item = Item {
@@ -23,7 +12,7 @@ pub(super) const FIGURE_7_16: Item = Item {
     description: "Errors over their limits and the cost, while each level flies the crossing in 20 s that the simplex found for it. Variables are position \
                   and velocity along north at both ends, in m and m s^{−1}.",
     make: Make::Draw(|context| errors(context, Case::Four)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Trajectories, from rest.
@@ -32,7 +21,7 @@ pub(super) const FIGURE_7_17: Item = Item {
     title: "Near-optimal trajectories of each level, four variables from *X*_{0} = [5, 0, −5, 0]",
     description: "The crossings of figure 7.16 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::Four)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Errors and cost, from the other start.
@@ -41,7 +30,7 @@ pub(super) const FIGURE_7_18: Item = Item {
     title: "Errors and cost of each level's four-variable solution from *X*_{0} = [5, −1.5, −8, 1.5]",
     description: "As figure 7.16 for the crossings that the simplex found from another start, which lies farther from the station and moves.",
     make: Make::Draw(|context| errors(context, Case::FourMoving)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Trajectories, from the other start.
@@ -50,7 +39,7 @@ pub(super) const FIGURE_7_19: Item = Item {
     title: "Near-optimal trajectories of each level, four variables from *X*_{0} = [5, −1.5, −8, 1.5]",
     description: "The crossings of figure 7.18 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::FourMoving)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Minima and run time.
@@ -68,7 +57,7 @@ pub(super) const FIGURE_7_20: Item = Item {
             ],
         )
     }),
-    ..SHARED
+    ..PLOT
 };
 
 /// The searches, from rest.
@@ -79,7 +68,7 @@ pub(super) const TABLE_7_3: Item = Item {
     kind: Kind::Table,
     claims: &[ENDED],
     make: Make::Draw(|context| table(context, Case::Four)),
-    ..SHARED
+    ..PLOT
 };
 
 /// The searches, from the other start.

@@ -13,7 +13,7 @@ mod figure_7_3;
 mod figure_7_5;
 mod figure_7_6;
 mod figure_7_7;
-mod figure_beyond_4;
+mod figure_beyond_3;
 mod four_variables;
 mod global_minima;
 mod growth;
@@ -63,5 +63,5 @@ pub(super) const ITEMS: &[Item] = &[
     crossed::FIGURE_7_27,
     figure_7_14::ITEM,
     figure_7_15::ITEM,
-    figure_beyond_4::ITEM,
+    figure_beyond_3::ITEM,
 ];

@@ -2,21 +2,10 @@
 
 use super::optimisations::{Case, Effort};
 use super::solution_table::{ENDED, table};
-use super::solutions::{NEVER_FALLS, errors, minima, trajectories};
+use super::solutions::{NEVER_FALLS, PLOT, errors, minima, trajectories};
 use crate::claim::Claim;
 use crate::drawing::Drawing;
-use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-
-/// What all of them share.
-const SHARED: Item = Item {
-    id: "",
-    title: "",
-    description: "",
-    kind: Kind::Plot,
-    origin: Origin::Simulated,
-    claims: &[],
-    make: Make::NotReproducible("a template"),
-};
+use crate::item::{Context, Item, ItemError, Kind, Make};
 
 const NOT_WORSE: Claim = Claim::holds("no level's minimum is worse than with the arbitrary space");
 
@@ -27,7 +16,7 @@ pub(super) const FIGURE_7_21: Item = Item {
     description: "Errors over their limits and the cost, while each level flies the crossing in 20 s that the line search found for it from [5, 0, −5, 0, −3, −3] \
                   over the whole box. Variables are position and velocity along north, and *z*, at both ends.",
     make: Make::Draw(|context| errors(context, Case::SixArbitrary)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Trajectories, arbitrary space.
@@ -36,7 +25,7 @@ pub(super) const FIGURE_7_22: Item = Item {
     title: "Near-optimal trajectories of each level, six variables, arbitrary search space",
     description: "The crossings of figure 7.21 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::SixArbitrary)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Errors and cost, narrowed space.
@@ -46,7 +35,7 @@ pub(super) const FIGURE_7_23: Item = Item {
     description: "As figure 7.21, with a box a quarter as wide about level 1's global minimum (table 7.6), from there.",
     claims: &[NOT_WORSE],
     make: Make::Draw(narrowed_errors),
-    ..SHARED
+    ..PLOT
 };
 
 /// Trajectories, narrowed space.
@@ -55,7 +44,7 @@ pub(super) const FIGURE_7_24: Item = Item {
     title: "Near-optimal trajectories of each level, six variables, narrowed search space",
     description: "The crossings of figure 7.23 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::SixNarrowed)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Minima and run time.
@@ -73,7 +62,7 @@ pub(super) const FIGURE_7_25: Item = Item {
             ],
         )
     }),
-    ..SHARED
+    ..PLOT
 };
 
 /// The searches, arbitrary space.
@@ -84,7 +73,7 @@ pub(super) const TABLE_7_5: Item = Item {
     kind: Kind::Table,
     claims: &[ENDED],
     make: Make::Draw(|context| table(context, Case::SixArbitrary)),
-    ..SHARED
+    ..PLOT
 };
 
 /// The searches, narrowed space.

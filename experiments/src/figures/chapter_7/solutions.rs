@@ -5,7 +5,7 @@ use super::run_time::{MARGIN, least_times, never_falls};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::item::{Context, ItemError};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
 use crate::plot::space::View;
 use crate::plot::style::{GREY, INK, Look, Marker};
@@ -15,6 +15,17 @@ use kuva::render::plots::Plot;
 use quad_dynamics::Level;
 use std::num::NonZeroU64;
 use wpt_optim::{Histories, History};
+
+/// What the plots of solutions share.
+pub(super) const PLOT: Item = Item {
+    id: "",
+    title: "",
+    description: "",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[],
+    make: Make::NotReproducible("a template"),
+};
 
 /// The run-time claim of the bar plots.
 pub(super) const NEVER_FALLS: Claim = Claim::holds("run time does not fall with level");

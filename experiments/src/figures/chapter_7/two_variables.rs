@@ -2,19 +2,8 @@
 
 use super::optimisations::Case;
 use super::solution_table::{ENDED, table};
-use super::solutions::{NEVER_FALLS, errors, minima, trajectories};
-use crate::item::{Item, Kind, Make, Origin};
-
-/// What all of them share.
-const SHARED: Item = Item {
-    id: "",
-    title: "",
-    description: "",
-    kind: Kind::Plot,
-    origin: Origin::Simulated,
-    claims: &[],
-    make: Make::NotReproducible("a template"),
-};
+use super::solutions::{NEVER_FALLS, PLOT, errors, minima, trajectories};
+use crate::item::{Item, Kind, Make};
 
 /// Errors and cost, 10 s.
 pub(super) const FIGURE_7_8: Item = Item {
@@ -23,7 +12,7 @@ pub(super) const FIGURE_7_8: Item = Item {
     description: "Errors of range, incidence and spot, each over its limit (8 m, 40°, 0.15 m), and the cost they add up to, while each level flies the \
                   crossing that the simplex found for it from [5, 5] m; variables are the north coordinates at both ends.",
     make: Make::Draw(|context| errors(context, Case::TwoIn10)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Trajectories, 10 s.
@@ -32,7 +21,7 @@ pub(super) const FIGURE_7_9: Item = Item {
     title: "Near-optimal trajectories of each level, two variables, 10 s",
     description: "The crossings of figure 7.8 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::TwoIn10)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Minima and run time, 10 s.
@@ -42,7 +31,7 @@ pub(super) const FIGURE_7_10: Item = Item {
     description: "The minima of figure 7.8 and the time that one call of the cost takes on one thread, per level.",
     claims: &[NEVER_FALLS],
     make: Make::Draw(|context| minima(context, &[("10 s", Case::TwoIn10)])),
-    ..SHARED
+    ..PLOT
 };
 
 /// Errors and cost, 20 s.
@@ -51,7 +40,7 @@ pub(super) const FIGURE_7_11: Item = Item {
     title: "Errors and cost of each level's two-variable solution, 20 s",
     description: "As figure 7.8 for a crossing in 20 s: errors over their limits and the cost they add up to, while each level flies its solution from [5, 5] m.",
     make: Make::Draw(|context| errors(context, Case::TwoIn20)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Trajectories, 20 s.
@@ -60,7 +49,7 @@ pub(super) const FIGURE_7_12: Item = Item {
     title: "Near-optimal trajectories of each level, two variables, 20 s",
     description: "The crossings of figure 7.11 in space and from above, with the station and its beam at six instants.",
     make: Make::Draw(|context| trajectories(context, Case::TwoIn20)),
-    ..SHARED
+    ..PLOT
 };
 
 /// Minima and run time, 20 s.
@@ -70,7 +59,7 @@ pub(super) const FIGURE_7_13: Item = Item {
     description: "The minima of figure 7.11 and the processor time that one call of the cost takes on one thread, per level.",
     claims: &[NEVER_FALLS],
     make: Make::Draw(|context| minima(context, &[("20 s", Case::TwoIn20)])),
-    ..SHARED
+    ..PLOT
 };
 
 /// The searches, 10 s.
@@ -82,7 +71,7 @@ pub(super) const TABLE_7_1: Item = Item {
     kind: Kind::Table,
     claims: &[ENDED],
     make: Make::Draw(|context| table(context, Case::TwoIn10)),
-    ..SHARED
+    ..PLOT
 };
 
 /// The searches, 20 s.
