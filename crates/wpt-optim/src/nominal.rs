@@ -2,7 +2,9 @@
 //!
 //! The station stands at the origin; the vehicle crosses its field along y from −5 m to 5 m, 3 m high, in 10 s or 20 s; limits of range,
 //! incidence and spot are 8 m, 40° and 0.15 m; all weights are 1. So set, the ideal cost ([`Problem::ideal`]) has two mirror
-//! minima, north and south of the station, and a saddle between. Two settings are the project's own:
+//! minima, north and south of the station, at 4.04 m (10 s) and 4.21 m (20 s), and a saddle between. A kinematic study put them near 3.5 m
+//! and 4 m; with the receiver in the centre of mass they are at 3.80 m and 3.98 m, 0.2 m ahead of it a quarter of a metre further
+//! out (`tools/ideal_crossing.py`). Two settings are the project's own:
 //!
 //! - The pedestal's zero pan looks east, along the crossing, so that the 20° that cables keep from the pan axis lie to the
 //!   west and not across one of the two ways. Flights that start on one side of the station and pass it on the other do turn

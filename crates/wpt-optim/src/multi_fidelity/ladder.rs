@@ -53,10 +53,9 @@ impl<'a> Ladder<'a> {
         let count = &self.counts[level - 1];
         count.calls.set(count.calls.get() + 1);
         let cost = (self.costs[level - 1])(x);
-        if !cost.is_usable() {
-            count.failed.set(count.failed.get() + 1);
-        }
-        cost.is_usable().then_some(cost)
+        let usable = cost.is_usable(x.len());
+        count.failed.set(count.failed.get() + u64::from(!usable));
+        usable.then_some(cost)
     }
 
     /// The cost at the lowest level; `None` where it is not finite.

@@ -15,6 +15,9 @@ use super::{Next, Rule, SetupError, Space, Stepwise, StopReason, Vertex};
 use serde::{Deserialize, Serialize};
 use sifre::Variable;
 
+/// Most members per variable: far beyond any use.
+const MOST_MEMBERS: usize = 10_000;
+
 /// Settings of [`Evolution`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvolutionSettings {
@@ -87,6 +90,12 @@ impl Stepwise<Population> {
             "at least 1",
         )?;
         let space = Space::new(variables)?;
+        SetupError::unless(
+            s.members_per_variable <= MOST_MEMBERS,
+            "members per variable",
+            s.members_per_variable as f64,
+            "at most 10 000",
+        )?;
         let count = (s.members_per_variable * space.dimension()).max(5);
         let first = latin_hypercube(&space, count, s.seed);
         let population = Population {

@@ -167,7 +167,7 @@ impl Run {
     ) -> Result<Option<StopReason>, RunError> {
         self.evaluations += 1;
         self.last_cost = answer.cost();
-        let usable = answer.is_usable();
+        let usable = answer.is_usable(search.dimension());
         self.failed += u64::from(!usable);
         let answer = if usable {
             answer

@@ -16,8 +16,8 @@ pub trait Answer: Clone {
     /// The cost.
     fn cost(&self) -> f64;
 
-    /// Whether every number of it is finite and the cost below [`FAILED_COST`].
-    fn is_usable(&self) -> bool;
+    /// Whether it speaks of `n` variables, every number of it is finite, and the cost is below [`FAILED_COST`].
+    fn is_usable(&self, n: usize) -> bool;
 
     /// The answer in its place where it isn't, for `n` variables.
     fn failed(n: usize) -> Self;
@@ -28,7 +28,7 @@ impl Answer for f64 {
         *self
     }
 
-    fn is_usable(&self) -> bool {
+    fn is_usable(&self, _n: usize) -> bool {
         self.abs() < FAILED_COST
     }
 
@@ -51,8 +51,8 @@ impl Answer for CostAndGradient {
         self.cost
     }
 
-    fn is_usable(&self) -> bool {
-        self.cost.is_usable() && self.gradient.iter().all(|g| g.is_finite())
+    fn is_usable(&self, n: usize) -> bool {
+        self.cost.is_usable(n) && self.gradient.len() == n && self.gradient.iter().all(|g| g.is_finite())
     }
 
     fn failed(n: usize) -> Self {

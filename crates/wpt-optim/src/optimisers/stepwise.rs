@@ -152,6 +152,10 @@ impl<A: Answer, R: Rule<A>> Search<A> for Stepwise<R, A> {
         if !cost.is_finite() {
             return Err(TellError::NotFinite { id, cost });
         }
+        // A gradient of other variables is worth nothing, nor is its cost.
+        let n = self.space.dimension();
+        let answer = if answer.is_usable(n) { answer } else { A::failed(n) };
+        let cost = answer.cost();
         self.evaluations += 1;
         // Of equal costs the first asked for, so that the order of telling doesn't matter.
         let better = |best: &Evaluation| cost < best.cost || (cost == best.cost && id < best.candidate.id);
