@@ -92,6 +92,11 @@ impl<T> Schedule<T> {
         self.place_at(time_ns).map(|place| &self.entries[place].value)
     }
 
+    /// The times of the entries, ns, in order.
+    pub(crate) fn times(&self) -> impl Iterator<Item = u64> {
+        self.from_ns.iter().copied()
+    }
+
     /// All values in order of time.
     pub fn values(&self) -> impl Iterator<Item = &T> {
         self.entries.iter().map(|entry| &entry.value)

@@ -15,6 +15,7 @@
 
 mod air;
 mod estimation;
+mod hover;
 mod memory;
 mod pilot;
 mod record;
@@ -34,11 +35,10 @@ use crate::event::AgentEvent;
 use crate::exact::plain;
 use air::Air;
 use estimation::Estimating;
+use hover::{hover_draw, model, set_moving};
 use memory::Restored;
 use nalgebra::Vector3;
-use quad_dynamics::{
-    AnyQuadrotor, BuildError, Flight, Input, Level, Phenomenon, PhenomenonSet, Snapshot, Vehicle,
-};
+use quad_dynamics::{AnyQuadrotor, Flight, Input, Level, Phenomenon, Snapshot};
 use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
 use rule::Side;
@@ -67,35 +67,6 @@ pub struct Quadrotor {
     near: Option<AgentId>,
     /// One RK4 step per step, no disturbance of commands or state and no estimator: model and controller may fly as one.
     is_plain: bool,
-}
-
-/// Step over which the current of hover is taken, s: any, it hardly changes in a second.
-const DRAW_STEP_S: f64 = 1e-3;
-
-/// A model of the vehicle in hover.
-fn model(
-    vehicle: &Vehicle,
-    level: Level,
-    phenomena: &PhenomenonSet,
-    at: Vector3<f64>,
-    yaw: f64,
-) -> Result<AnyQuadrotor<f64>, BuildError> {
-    AnyQuadrotor::hovering(level, vehicle, phenomena, at, yaw)
-}
-
-/// What a model draws from its battery in hover, A h/s; nothing where it has none that sags.
-fn hover_draw(model: &AnyQuadrotor<f64>) -> f64 {
-    let (mut hovering, input) = (model.clone(), model.hover_input());
-    hovering.step(FixedStep::Rk4, &input, DRAW_STEP_S);
-    (hovering.snapshot(&input).charge_drawn - model.snapshot(&input).charge_drawn) / DRAW_STEP_S
-}
-
-/// The same hover, but with this velocity in W, m/s.
-fn set_moving(quadrotor: &mut AnyQuadrotor<f64>, velocity: Vector3<f64>) {
-    let input = quadrotor.hover_input();
-    let mut snapshot = quadrotor.snapshot(&input);
-    snapshot.body.velocity = quadrotor.flight().rotation.matrix.transpose() * velocity;
-    quadrotor.adopt(&snapshot, &input);
 }
 
 impl Quadrotor {

@@ -117,8 +117,10 @@ impl Script {
 
     /// Checks its own numbers.
     fn check_air(&self) -> Result<(), AirError> {
-        for wind in self.wind_m_s.values() {
-            check_speed((Vector3::from(*wind) + Vector3::from(self.wind.constant_m_s)).norm())?;
+        let changes = self.wind_m_s.times().chain(self.wind.steps_m_s.times());
+        for at in std::iter::once(0).chain(changes) {
+            let scheduled = self.wind_m_s.at(at).copied().unwrap_or_default();
+            check_speed((Vector3::from(scheduled) + self.wind.mean(at)).norm())?;
         }
         self.wind.check()?;
         self.process_noise.map_or(Ok(()), |noise| noise.check())
