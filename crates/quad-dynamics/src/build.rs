@@ -10,7 +10,9 @@ use crate::{
 };
 use nalgebra::{Matrix4, Vector3, Vector4};
 use quad_math::{Real, constant};
-use quad_rotor::{ConstantVoltage, IdealRotor, RotorInput, RotorModel, SpinUp, Supply};
+use quad_rotor::{
+    Battery, BatteryState, ConstantVoltage, IdealRotor, RotorInput, RotorModel, SpinUp, Supply,
+};
 use rotors::{ideal, propeller, stiff, zero_thrust_offset};
 
 /// Rounds of `voltage → torque → current → voltage`. Internal resistance times the slope of the current
@@ -60,6 +62,26 @@ pub trait FamilySupply<R: Real>: Supply<R> {
 
     /// The state with this charge drawn, Ah.
     fn with_charge_drawn(charge_drawn: R) -> Self::State;
+}
+
+/// The charge drawn lives in the battery's state.
+impl<R: Real> FamilySupply<R> for Battery<R> {
+    fn charge_drawn(state: &BatteryState<R>) -> R {
+        state.charge_drawn
+    }
+
+    fn with_charge_drawn(charge_drawn: R) -> BatteryState<R> {
+        BatteryState { charge_drawn }
+    }
+}
+
+/// A stiff supply has no charge to remember.
+impl<R: Real> FamilySupply<R> for ConstantVoltage<R> {
+    fn charge_drawn((): &()) -> R {
+        R::zero()
+    }
+
+    fn with_charge_drawn(_charge_drawn: R) {}
 }
 
 impl<R: Real> RigidBody<R> {

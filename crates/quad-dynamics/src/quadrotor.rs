@@ -22,8 +22,8 @@ use crate::{
 use nalgebra::Vector3;
 use quad_math::{RateOf, Real, System};
 use quad_rotor::{
-    Battery, BatteryState, ConstantVoltage, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor,
-    NonLinearRotor, Propeller, RotorInput, RotorModel, RotorOutput, Supply,
+    Battery, ConstantVoltage, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor, NonLinearRotor,
+    Propeller, RotorInput, RotorModel, RotorOutput, Supply,
 };
 
 /// Level 2: non-linear rigid body, ideal rotors.
@@ -398,24 +398,4 @@ where
     fn phenomena(&self) -> &PhenomenonSet {
         &self.phenomena
     }
-}
-
-/// The charge drawn lives in the battery's state.
-impl<R: Real> crate::build::FamilySupply<R> for Battery<R> {
-    fn charge_drawn(state: &BatteryState<R>) -> R {
-        state.charge_drawn
-    }
-
-    fn with_charge_drawn(charge_drawn: R) -> BatteryState<R> {
-        BatteryState { charge_drawn }
-    }
-}
-
-/// A stiff supply has no charge to remember.
-impl<R: Real> crate::build::FamilySupply<R> for ConstantVoltage<R> {
-    fn charge_drawn((): &()) -> R {
-        R::zero()
-    }
-
-    fn with_charge_drawn(_charge_drawn: R) {}
 }
