@@ -133,6 +133,15 @@ impl BlackBox for MetricsBox {
     }
 }
 
+/// The greater of two numbers, and none if either is none: what is no number must show.
+fn greater(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
+    }
+}
+
 impl Quadrotor {
     fn of(name: &str, place: &impl Fn(String) -> Option<usize>) -> Option<Self> {
         let xyz = |what: &str| {
@@ -168,10 +177,10 @@ impl Quadrotor {
         let square: f64 = (0..3).map(|i| difference(i).powi(2)).sum();
         self.squares += square;
         self.final_error = square.sqrt();
-        self.largest_error = self.largest_error.max(self.final_error);
+        self.largest_error = greater(self.largest_error, self.final_error);
         let [roll, pitch] = self.tilt.map(|place| row[place]);
-        self.largest_tilt = self.largest_tilt.max((roll.cos() * pitch.cos()).acos());
-        self.least_height = self.least_height.min(-row[self.position[2]]);
+        self.largest_tilt = greater(self.largest_tilt, (roll.cos() * pitch.cos()).acos());
+        self.least_height = -greater(-self.least_height, row[self.position[2]]);
         if let Some(e) = &mut self.estimate {
             let missed = |i: usize| row[e.position[i]] - row[self.position[i]];
             e.squares += (0..3).map(|i| missed(i).powi(2)).sum::<f64>();
