@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     /// The scenario that a recording is of, for the looks of its agents; guessed from the recording without it.
     #[arg(long)]
     scenario: Option<PathBuf>,
-    /// The page; beside the input without it.
+    /// The page; without it in this folder, with the name of the input.
     #[arg(long, short)]
     out: Option<PathBuf>,
 }
@@ -48,10 +48,12 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     };
     let page = html(&recording, &scene, &Options::default())
         .map_err(|error| Failure::Usage(format!("{}: {error}", arguments.input.display())))?;
+    // A flight's outputs stand where one works, as those of `run` do, not among the scenarios.
+    let name = arguments.input.file_name().unwrap_or(arguments.input.as_os_str());
     let out = arguments
         .out
         .clone()
-        .unwrap_or_else(|| arguments.input.with_extension("html"));
+        .unwrap_or_else(|| Path::new(name).with_extension("html"));
     disk::write(&out, page)?;
     if json {
         report::print(&serde_json::json!({ "page": out, "rows": recording.len(), "exit_code": exit.code() }));

@@ -2,6 +2,8 @@
 
 use crate::exit::Failure;
 use scenario::Files;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -24,6 +26,32 @@ impl Beside {
 impl Files for Beside {
     fn text(&self, name: &str) -> Result<String, io::Error> {
         fs::read_to_string(self.folder.join(name))
+    }
+}
+
+/// Files that remember what was read of them.
+#[derive(Debug)]
+pub(crate) struct Remembering<'a> {
+    files: &'a Beside,
+    /// The texts by the names of their files.
+    pub(crate) read: RefCell<BTreeMap<String, String>>,
+}
+
+impl<'a> Remembering<'a> {
+    /// Nothing read yet.
+    pub(crate) fn of(files: &'a Beside) -> Self {
+        Self {
+            files,
+            read: RefCell::default(),
+        }
+    }
+}
+
+impl Files for Remembering<'_> {
+    fn text(&self, name: &str) -> Result<String, io::Error> {
+        let text = self.files.text(name)?;
+        self.read.borrow_mut().insert(name.to_owned(), text.clone());
+        Ok(text)
     }
 }
 

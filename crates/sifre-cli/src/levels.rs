@@ -175,7 +175,12 @@ impl Size {
         let squares: f64 = values.iter().map(|x| x * x).sum();
         Self {
             rms: (squares / values.len().max(1) as f64).sqrt(),
-            largest: values.iter().copied().fold(0.0, f64::max),
+            // What is no number must show, and `f64::max` hides it.
+            largest: if squares.is_nan() {
+                f64::NAN
+            } else {
+                values.iter().fold(0.0, |most, x| most.max(x.abs()))
+            },
         }
     }
 }

@@ -38,12 +38,39 @@ pub(crate) fn at(
     scenario
 }
 
-/// Refuses a scenario without anything that has levels.
+/// Refuses a scenario without anything that has levels, and says what of it is left out where all levels are compared.
 pub(crate) fn check(scenario: &Scenario) -> Result<(), Failure> {
     if scenario.quadrotor.is_empty() {
         return Err(Failure::Usage(
             "there is no quadrotor in it: only quadrotors have levels".to_owned(),
         ));
+    }
+    for quadrotor in &scenario.quadrotor {
+        let left_out = [
+            ("phenomena", quadrotor.phenomena.is_some()),
+            ("level_changes", !quadrotor.level_changes.is_empty()),
+            ("level_rule", quadrotor.level_rule.is_some()),
+            (
+                "wind.shear where there is no drag",
+                quadrotor.wind.shear.is_some(),
+            ),
+            (
+                "wind.turbulence where there is no drag",
+                quadrotor.wind.turbulence.is_some(),
+            ),
+        ];
+        let named: Vec<_> = left_out
+            .iter()
+            .filter(|(_, is_there)| *is_there)
+            .map(|(key, _)| *key)
+            .collect();
+        if !named.is_empty() {
+            eprintln!(
+                "note: each level flies with its own phenomena throughout; \"{}\" goes without its {}",
+                quadrotor.name,
+                named.join(", ")
+            );
+        }
     }
     Ok(())
 }

@@ -82,14 +82,14 @@ fn chosen(recording: &Recording, wanted: &[String]) -> Result<Vec<String>, Failu
     Ok(known)
 }
 
-/// The columns side by side, filled up to the same height.
+/// The columns side by side, filled up to the same height by empty axes.
 fn figure(columns: Vec<Vec<Panel>>) -> Figure {
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
     let mut figure = Figure::columns(columns.len()).legends(Legends::EachPanel);
     for row in 0..rows {
         for column in &columns {
             let panel = column.get(row).cloned();
-            figure = figure.panel(panel.unwrap_or_else(|| column[column.len() - 1].clone()));
+            figure = figure.panel(panel.unwrap_or_else(|| Panel::new("", "")));
         }
     }
     figure

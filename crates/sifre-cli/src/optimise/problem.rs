@@ -1,6 +1,6 @@
 //! What a decision costs: the scenario with the variables' values in it, flown by the engine.
 
-use crate::disk::Beside;
+use crate::disk::{Beside, Remembering};
 use crate::exit::Failure;
 use crate::varied::{Setting, Template};
 use crate::{interrupt, model};
@@ -8,6 +8,7 @@ use quad_dynamics::Level;
 use scenario::{AgentKind, Built, End, OptimiseFile, Scenario};
 use sifre::black_box::MemoryBox;
 use sifre::{Recording, StepSize, Variable};
+use std::collections::BTreeMap;
 use std::path::Path;
 use toml::Value;
 use wpt_optim::{CostBox, Outcome, Pair, Penalties, Span, Weights};
@@ -18,6 +19,8 @@ pub(super) struct Problem {
     pub(super) file: OptimiseFile,
     pub(super) variables: Vec<Variable>,
     pub(super) start: Vec<f64>,
+    /// The files that the scenario names, and what stands in them.
+    pub(super) read: BTreeMap<String, String>,
     files: Beside,
     pair: Pair,
     step: StepSize,
@@ -59,7 +62,8 @@ impl Problem {
             lower: v.lower,
             upper: v.upper,
         };
-        let problem = Self {
+        let mut problem = Self {
+            read: BTreeMap::new(),
             variables: file.variables.iter().map(variable).collect(),
             start: starts(&template, &file)?,
             files: Beside::of(path),
@@ -81,9 +85,12 @@ impl Problem {
             .map_err(|error| Failure::Usage(format!("optimise.variables: {error}")))?;
         let first = problem.levels().first().copied().flatten();
         let scenario = problem.scenario(&problem.start, first)?;
-        let built = scenario.build(&problem.files)?;
+        let files = Remembering::of(&problem.files);
+        let built = scenario.build(&files)?;
+        let read = files.read.into_inner();
         problem.cost(&built)?;
         built.fly()?;
+        problem.read = read;
         Ok(problem)
     }
 

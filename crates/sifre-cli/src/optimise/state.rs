@@ -90,7 +90,7 @@ impl State {
             .map_err(|error| Failure::Usage(format!("{}: not a state: {error}", path.display())))?;
         if state.fingerprint != fingerprint(problem) {
             return Err(Failure::Usage(format!(
-                "{} is of another scenario: only `budget` may change before --resume",
+                "{} is of another scenario or vehicle: only `budget` may change before --resume",
                 path.display()
             )));
         }
@@ -116,7 +116,7 @@ fn fingerprint(problem: &Problem) -> String {
     if let Some(toml::Value::Table(optimise)) = table.get_mut("optimise") {
         optimise.remove("budget");
     }
-    format!("{table} of {}", env!("CARGO_PKG_VERSION"))
+    format!("{table} {:?} of {}", problem.read, env!("CARGO_PKG_VERSION"))
 }
 
 impl Course {

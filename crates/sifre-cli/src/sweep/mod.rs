@@ -9,7 +9,7 @@ pub(crate) mod axes;
 mod journal;
 mod table;
 
-use crate::disk::Beside;
+use crate::disk::{Beside, Remembering};
 use crate::exit::{Exit, Failure};
 use crate::varied::Template;
 use crate::{interrupt, report};
@@ -158,13 +158,25 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// What makes this sweep another than the next.
+    /// What makes this sweep another than the next: what is varied, the scenario, and the files that it or a varied key names.
     fn fingerprint(&self) -> String {
+        let files = Remembering::of(&self.files);
+        // A scenario that can't be built says so when it is flown.
+        let _ = self
+            .template
+            .with(&self.settings(0))
+            .map(|scenario| scenario.build(&files));
+        let values = self.axes.iter().flat_map(|axis| &axis.values);
+        for name in values.filter_map(toml::Value::as_str) {
+            // Not every word is a file's name.
+            let _ = files.text(name);
+        }
         format!(
-            "{:?} {:?} {:?} runs {} seed {} of {}",
+            "{:?} {:?} {:?} {:?} runs {} seed {} of {}",
             self.axes,
             self.draws,
             self.template,
+            files.read.borrow(),
             self.runs,
             self.seed,
             env!("CARGO_PKG_VERSION")

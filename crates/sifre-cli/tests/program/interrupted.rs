@@ -146,3 +146,37 @@ fn exact_an_interrupted_optimisation_goes_on() {
     folder.run(&[&given[..], &short].concat()).exits(0);
     assert_eq!(flown(), before + 3);
 }
+
+/// A vehicle file that changed in between is another problem, though the scenario is the same.
+#[test]
+fn exact_a_search_does_not_go_on_with_another_vehicle() {
+    let folder = Folder::new("another-vehicle");
+    fs::copy(ready("optimise-transmission"), folder.path("mine.toml")).unwrap();
+    let vehicle = fs::read_to_string(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../data/vehicles/qball-x4.toml"
+    ))
+    .unwrap();
+    fs::write(folder.path("drone.toml"), &vehicle).unwrap();
+    let search = |last: &[&str]| {
+        let given = [
+            "optimise",
+            "mine.toml",
+            "--set",
+            "quadrotor.alpha.vehicle=drone.toml",
+            "--set",
+            "duration_s=0.2",
+            "--set",
+            "optimise.budget=4",
+        ];
+        folder.run(&[&given[..], last].concat())
+    };
+    search(&[]).exits(0);
+    search(&["--resume"]).exits(0);
+    let heavier = vehicle.replacen("mass_kg = { value = 1.4", "mass_kg = { value = 1.5", 1);
+    assert_ne!(heavier, vehicle);
+    fs::write(folder.path("drone.toml"), heavier).unwrap();
+    search(&["--resume"])
+        .exits(2)
+        .says(&["another scenario or vehicle"]);
+}
