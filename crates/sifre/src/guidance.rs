@@ -41,6 +41,12 @@ pub trait Guidance: Debug + Send {
     /// What to do from this instant on.
     fn reference(&self, now: &Moment<'_>) -> Reference<f64>;
 
+    /// The same to look at: its own, where it is always the same, or else put into `room`.
+    fn show<'a>(&'a self, now: &Moment<'_>, room: &'a mut Reference<f64>) -> &'a Reference<f64> {
+        *room = self.reference(now);
+        room
+    }
+
     /// By which law its reference feeds the attitude forward, for who gives the path another heading; `None` if it feeds
     /// forward nothing or something else.
     fn tilt(&self) -> Option<Tilt> {
@@ -53,6 +59,12 @@ impl Guidance for Reference<f64> {
     #[inline]
     fn reference(&self, _now: &Moment<'_>) -> Reference<f64> {
         *self
+    }
+
+    /// Nothing is copied.
+    #[inline]
+    fn show<'a>(&'a self, _now: &Moment<'_>, _room: &'a mut Reference<f64>) -> &'a Reference<f64> {
+        self
     }
 }
 

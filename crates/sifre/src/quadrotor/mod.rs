@@ -67,6 +67,8 @@ pub struct Quadrotor {
     near: Option<AgentId>,
     /// One RK4 step per step, no disturbance of commands or state and no estimator: model and controller may fly as one.
     is_plain: bool,
+    /// Whether the script has no wind at any time, so that none need be looked up.
+    is_still: bool,
 }
 
 impl Quadrotor {
@@ -115,6 +117,7 @@ impl Quadrotor {
                 && setup.script.wind.turbulence.is_none()
                 && setup.script.process_noise.is_none()
                 && setup.estimation.is_none(),
+            is_still: setup.script.is_still(),
             setup,
         })
     }
@@ -197,6 +200,13 @@ impl Quadrotor {
     /// Velocity of the air in W, m/s.
     #[inline]
     fn wind(&self, now: &Moment<'_>) -> Vector3<f64> {
+        if self.is_still {
+            return Vector3::zeros();
+        }
+        self.moving_air(now)
+    }
+
+    fn moving_air(&self, now: &Moment<'_>) -> Vector3<f64> {
         let (mean, wind) = (self.mean_wind(now), &self.setup.script.wind);
         if wind.shear.is_none() && wind.turbulence.is_none() {
             return mean;
@@ -353,12 +363,10 @@ impl Agent for Quadrotor {
             return event;
         }
         let event = self.follow_script(now);
-        let reference = self.setup.guidance.reference(now);
         self.input.wind = self.wind(now);
-        self.input.commands = self
-            .setup
-            .pilot
-            .fly(&mut self.quadrotor, &reference, &self.input.wind, now);
+        let Setup { guidance, pilot, .. } = &mut self.setup;
+        let reference = guidance.show(now, &mut self.reference);
+        self.input.commands = pilot.fly(&mut self.quadrotor, reference, &self.input.wind, now);
         self.draw_charge(now);
         event
     }

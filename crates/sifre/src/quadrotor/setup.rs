@@ -115,6 +115,16 @@ impl Script {
         ]
     }
 
+    /// Whether the air never moves.
+    pub(super) fn is_still(&self) -> bool {
+        let any = |winds: &Schedule<[f64; 3]>| winds.values().next().is_some();
+        let wind = &self.wind;
+        !any(&self.wind_m_s)
+            && !any(&wind.steps_m_s)
+            && wind.constant_m_s == [0.0; 3]
+            && wind.turbulence.is_none()
+    }
+
     /// Checks its own numbers.
     fn check_air(&self) -> Result<(), AirError> {
         let changes = self.wind_m_s.times().chain(self.wind.steps_m_s.times());
