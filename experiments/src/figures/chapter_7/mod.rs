@@ -14,9 +14,11 @@ mod figure_7_5;
 mod figure_7_6;
 mod figure_7_7;
 mod figure_beyond_3;
+mod figure_beyond_4;
 mod four_variables;
 mod global_minima;
 mod growth;
+mod guided;
 mod himmelblau;
 pub(super) mod mission;
 mod optimisations;
@@ -64,4 +66,5 @@ pub(super) const ITEMS: &[Item] = &[
     figure_7_14::ITEM,
     figure_7_15::ITEM,
     figure_beyond_3::ITEM,
+    figure_beyond_4::ITEM,
 ];

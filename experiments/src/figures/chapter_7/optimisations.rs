@@ -86,7 +86,7 @@ pub(super) struct Solved {
 }
 
 /// Step of vehicle and station in short runs.
-const QUICK_STEP: StepSize = StepSize::MILLISECOND.times(4);
+pub(super) const QUICK_STEP: StepSize = StepSize::MILLISECOND.times(4);
 /// Evaluations after which a search is given up: more than any should need.
 const MOST_EVALUATIONS: u64 = 1500;
 /// Share of each variable's width that the narrowed box keeps: *choice*.
@@ -149,16 +149,7 @@ impl Case {
         if effort == Effort::Full {
             return Ok(nominal);
         }
-        let mut mission = nominal.mission().clone();
-        (mission.step, mission.station_step) = (QUICK_STEP, QUICK_STEP);
-        let decisions = nominal.decisions().to_vec();
-        Ok(Problem::new(
-            mission,
-            level,
-            decisions,
-            &Default::default(),
-            &Default::default(),
-        )?)
+        stepped(&nominal, QUICK_STEP)
     }
 
     /// The problem at a level.
@@ -283,6 +274,20 @@ impl Case {
             )?,
         })
     }
+}
+
+/// The same problem with another step of vehicle and station.
+pub(super) fn stepped(problem: &Problem, step: StepSize) -> Result<Problem, ItemError> {
+    let mut mission = problem.mission().clone();
+    (mission.step, mission.station_step) = (step, step);
+    let decisions = problem.decisions().to_vec();
+    Ok(Problem::new(
+        mission,
+        problem.level(),
+        decisions,
+        &Default::default(),
+        &Default::default(),
+    )?)
 }
 
 /// Runs a search on a problem's cost.
