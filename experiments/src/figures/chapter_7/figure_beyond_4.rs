@@ -2,6 +2,7 @@
 
 use super::guided::{DURATION_S, Pair, Race, step};
 use super::optimisations::Effort;
+use super::solutions::SEARCHED;
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
@@ -121,7 +122,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         "guided_flights",
         "plain_cost",
         "plain_flights",
-    ]);
+    ])
+    .with_tolerance(SEARCHED);
     let figure = Figure::columns(2)
         .legends(Legends::Common)
         .panel(panel("two variables", &two))
