@@ -6,7 +6,7 @@ use crate::file::{EstimatorFile, LevelChange, QuadrotorFile, Scenario, Turbulenc
 use crate::library::{Files, vehicle};
 use quad_dynamics::{CommandLimits, Level, Phenomenon, PhenomenonSet};
 use sifre::quadrotor::{
-    EstimateUse, Estimation, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind,
+    EstimateUse, Estimation, Gusts, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind,
 };
 use sifre::{Facing, Member, Quadrotor, Schedule, ScheduleError};
 use std::sync::Arc;
@@ -128,7 +128,7 @@ fn script(file: &QuadrotorFile, seed: u64) -> Result<Script, ScenarioError> {
             .map_err(refuse("command_offsets"))?,
         wind: Wind {
             shear: file.wind.shear,
-            turbulence: turbulence.map(|TurbulenceFile { w20_m_s }| Turbulence { w20_m_s, seed }),
+            turbulence: turbulence.map(|file| gusts(file, seed)),
             ..Wind::default()
         },
         process_noise: file.process_noise.map(|noise| ProcessNoiseSource {
@@ -138,6 +138,18 @@ fn script(file: &QuadrotorFile, seed: u64) -> Result<Script, ScenarioError> {
         }),
         rule: file.level_rule.clone(),
     })
+}
+
+/// Its turbulence.
+fn gusts(file: TurbulenceFile, seed: u64) -> Turbulence {
+    Turbulence {
+        w20_m_s: file.w20_m_s,
+        seed,
+        gusts: match file.rotational {
+            true => Gusts::All,
+            false => Gusts::Linear,
+        },
+    }
 }
 
 /// Says so if the wind can't be felt.

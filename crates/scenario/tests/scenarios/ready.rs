@@ -158,6 +158,11 @@ fn prop_near_the_ground_all_phenomena_act_together() {
     assert!((saved - expected).abs() < 3e-4, "{saved} instead of {expected}");
     assert!(calm.column("alpha.wind.y").iter().all(|wind| *wind == 0.0));
     assert!(flown.column("alpha.wind.y").iter().any(|wind| *wind != 0.0));
+    // Gusts turn the air unless they are told not to, and push alike at the start.
+    assert!(flown.column("alpha.air_rate.x").iter().any(|rate| *rate != 0.0));
+    let linear = fly(&ready("near-the-ground").replace("w20_m_s = 7.7", "w20_m_s = 7.7, rotational = false"));
+    assert_eq!(linear.at("alpha.wind.x", 0.0), flown.at("alpha.wind.x", 0.0));
+    assert!(linear.recording.column("alpha.air_rate.x").is_none());
 }
 
 #[test]

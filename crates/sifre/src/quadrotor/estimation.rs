@@ -19,7 +19,6 @@ use super::LevelChoice;
 use super::air::{random, step_number};
 use crate::agent::{MemoryError, Moment};
 use crate::exact::Exact;
-use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, Input, Vehicle};
 use quad_estimation::sensor::{Seen, SensorSuite, SuiteState};
 use quad_estimation::{
@@ -217,10 +216,7 @@ impl Estimating {
 
     /// The pilot sends these commands until the next instant.
     pub(super) fn send(&mut self, commands: [f64; 4]) {
-        self.sent = Input {
-            commands,
-            wind: Vector3::zeros(),
-        };
+        self.sent = Input::still_air(commands);
     }
 
     /// What the filter says of the flight.

@@ -7,6 +7,7 @@ mod convergence;
 mod dynamic_resolution;
 mod estimating;
 mod ets_agent;
+mod gusts;
 mod laws;
 mod levels;
 mod optimising;
