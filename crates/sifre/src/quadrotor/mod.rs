@@ -17,6 +17,7 @@ mod air;
 mod estimation;
 mod gusts;
 mod hover;
+mod initial_error;
 mod memory;
 mod pilot;
 mod record;
@@ -25,6 +26,7 @@ mod setup;
 
 pub use air::{AirError, Gusts, ProcessNoiseSource, STRONGEST_WIND_M_S, Turbulence, Wind};
 pub use estimation::{EstimateUse, Estimation, EstimationSetupError, FilterKind};
+pub use initial_error::{InitialError, InitialErrorFault, VectorError};
 pub use pilot::{OpenLoop, Pilot};
 pub use rule::{LevelRule, RuleError};
 pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};

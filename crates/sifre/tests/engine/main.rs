@@ -15,3 +15,4 @@ mod recording;
 mod scheduling;
 mod stopping;
 mod support;
+mod wrong_starts;
