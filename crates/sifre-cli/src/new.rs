@@ -24,6 +24,7 @@ pub(crate) const READY: [(&str, &str); 19] = [
         "estimator-in-the-loop",
         include_str!("../../../scenarios/estimator-in-the-loop.toml"),
     ),
+    ("wrong-start", include_str!("../../../scenarios/wrong-start.toml")),
     (
         "near-the-ground",
         include_str!("../../../scenarios/near-the-ground.toml"),
