@@ -6,7 +6,7 @@ use crate::report;
 use std::path::PathBuf;
 
 /// The scenarios that come with the project: name and file.
-pub(crate) const READY: [(&str, &str); 19] = [
+pub(crate) const READY: [(&str, &str); 20] = [
     ("template", include_str!("../template.toml")),
     ("hover", include_str!("../../../scenarios/hover.toml")),
     (
