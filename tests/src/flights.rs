@@ -13,7 +13,7 @@ pub struct Draw {
     pub vehicle: Vehicle,
     /// The moment, in terms that every level adopts.
     pub snapshot: Snapshot<f64>,
-    /// Commands inside the PWM range, and wind.
+    /// Commands inside the PWM range, wind, and rotation of the air.
     pub input: Input<f64>,
 }
 
@@ -65,8 +65,9 @@ fn rotor() -> impl Strategy<Value = Shares> {
 /// Any moment of any flight of a vehicle from the strategy; commands, thrusts and torques are positive and
 /// inside the limits, so that no kink is near.
 pub fn draw(vehicle: impl Strategy<Value = Vehicle>) -> impl Strategy<Value = Draw> {
-    (vehicle, body(), prop::array::uniform4(rotor()), 0.0..0.5_f64).prop_map(
-        |(vehicle, (body, wind), shares, discharge)| {
+    let rotors = prop::array::uniform4(rotor());
+    (vehicle, body(), rotors, 0.0..0.5_f64, vector(0.5)).prop_map(
+        |(vehicle, (body, wind), shares, discharge, air_rates)| {
             let high = *vehicle.zeroed_range().end();
             let gains = &vehicle.linear_rotor;
             let (thrust, torque) = (gains.thrust_gain * high, gains.torque_gain * high);
@@ -90,6 +91,7 @@ pub fn draw(vehicle: impl Strategy<Value = Vehicle>) -> impl Strategy<Value = Dr
                 input: Input {
                     commands: shares.map(|(.., u)| u * high),
                     wind,
+                    air_rates,
                 },
                 vehicle,
             }

@@ -58,11 +58,11 @@ pub fn from_flat<R: Real, X: Flat<R>>(values: &[f64]) -> X {
     X::read(&values)
 }
 
-/// State, commands and wind in one vector.
+/// State, commands, wind and rotation of the air in one vector.
 pub fn join<R: Real, X: Flat<R>>(state: &X, input: &Input<R>) -> Vec<R> {
     let mut all = flat(state);
     all.extend(input.commands);
-    all.extend(input.wind.iter());
+    all.extend(input.wind.iter().chain(&input.air_rates));
     all
 }
 
@@ -71,12 +71,13 @@ pub fn split<R: Real, X: Flat<R>>(all: &[R]) -> (X, Input<R>) {
     let input = &all[X::LEN..];
     let input = Input {
         commands: std::array::from_fn(|i| input[i]),
-        wind: nalgebra::Vector3::new(input[4], input[5], input[6]),
+        wind: Flat::read(&input[4..]),
+        air_rates: Flat::read(&input[7..]),
     };
     (X::read(all), input)
 }
 
-/// The rate of a model's state at a joined vector of state, commands and wind, as numbers.
+/// The rate of a model's state at a joined vector of state and input, as numbers.
 pub fn rate<R: Real, M: QuadrotorModel<R>>(model: &M, all: &[R]) -> Vec<R> {
     let (state, input) = split::<R, StateOf<R, M>>(all);
     flat(&model.derivative(&state, &input))

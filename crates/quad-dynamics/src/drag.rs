@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! F_i = −k_i |v_i| v_i      v = Rᵀ (velocity − wind), along B
-//! M_i = −d_i ω_i
+//! M_i = −d_i (ω_i − ω_air,i)   ω_air = Rᵀ (rotation of the air), along B
 //! ```
 //!
 //! A bluff body's quadratic law axis by axis; the damping is that of rotors whose inflow a rate changes. Valid for a body
@@ -15,7 +15,7 @@ use crate::Wrench;
 use nalgebra::Vector3;
 use quad_math::Real;
 
-/// Drag of the airframe and damping of its rates: `F_i = −k_i |v_i| v_i`, `M_i = −d_i ω_i`.
+/// Drag of the airframe and damping of its rates: `F_i = −k_i |v_i| v_i`, `M_i = −d_i (ω_i − ω_air,i)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drag<R: Real> {
     /// `k`, N s²/m², per body axis.
@@ -25,14 +25,16 @@ pub struct Drag<R: Real> {
 }
 
 impl<R: Real> Drag<R> {
-    /// Force and moment at an air-relative velocity along B, m/s, and body rates, rad/s.
+    /// Force and moment at an air-relative velocity along B, m/s, and body rates relative to the air, rad/s.
+    ///
+    /// Air that rolls by p_g about a body at rest acts like a body that rolls by −p_g in air at rest.
     #[inline(always)]
-    pub fn wrench(&self, air_velocity_b: &Vector3<R>, body_rates: &Vector3<R>) -> Wrench<R> {
+    pub fn wrench(&self, air_velocity_b: &Vector3<R>, air_rates_b: &Vector3<R>) -> Wrench<R> {
         Wrench {
             force: self
                 .quadratic
                 .zip_map(air_velocity_b, |k, v| -k * v.simd_abs() * v),
-            moment: -self.rate_damping.component_mul(body_rates),
+            moment: -self.rate_damping.component_mul(air_rates_b),
         }
     }
 }

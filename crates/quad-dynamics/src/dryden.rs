@@ -16,12 +16,14 @@
 //! ```
 //!
 //! The step is exact (transition and covariance in closed form), so the standard deviation is σ at any step size, and no
-//! step is too long. Valid from 10 ft to 1000 ft above the ground; heights outside are held at these ends. Gusts
-//! of rotation (p_g, q_g, r_g) are left out: they belong to a wing's span. Source: MIL-F-8785C, Flying Qualities of Piloted
-//! Airplanes, 1980, section 3.7.
+//! step is too long. Valid from 10 ft to 1000 ft above the ground; heights outside are held at these ends. How the air
+//! turns in these gusts: [`DrydenRotation`]. Source: MIL-F-8785C, Flying Qualities of Piloted Airplanes, 1980, section 3.7.
 
+mod rotation;
 #[cfg(test)]
 mod tests;
+
+pub use rotation::{DrydenRotation, DrydenRotationNoise, DrydenRotationState, GustStep};
 
 use nalgebra::Vector3;
 use quad_math::{Real, constant};
@@ -95,9 +97,6 @@ impl<R: Real> Dryden<R> {
     /// Velocity of the gust along the mean wind, across to the right, and down, m/s.
     #[inline]
     pub fn gust(&self, state: &DrydenState<R>) -> Vector3<R> {
-        let root = constant::<R>(3.0_f64.sqrt());
-        let scale = constant::<R>(std::f64::consts::FRAC_1_SQRT_2);
-        let lateral = |[x_1, x_2]: [R; 2]| (root * x_1 + (R::one() - root) * x_2) * scale;
         self.intensity.component_mul(&Vector3::new(
             state.along,
             lateral(state.across),
@@ -126,20 +125,44 @@ fn first_order<R: Real>(x: R, tau: R, noise: R) -> R {
     decay * x + (R::one() - decay * decay).simd_max(R::zero()).simd_sqrt() * noise
 }
 
-/// Two poles at a: `Φ = e^−τ [1 0; τ 1]`, noise of covariance `Q = P − Φ P Φᵀ` with `P = [1 ½; ½ ½]`, by Cholesky.
+/// A gust across or down of unit size, `(√3 x_1 + (1 − √3) x_2) / √2`.
+#[inline(always)]
+fn lateral<R: Real>([x_1, x_2]: [R; 2]) -> R {
+    let root = constant::<R>(3.0_f64.sqrt());
+    let scale = constant::<R>(std::f64::consts::FRAC_1_SQRT_2);
+    (root * x_1 + (R::one() - root) * x_2) * scale
+}
+
+/// Two poles at a: `Φ = e^−τ [1 0; τ 1]`.
 #[inline(always)]
 fn second_order<R: Real>([x_1, x_2]: [R; 2], tau: R, [n_1, n_2]: [R; 2]) -> [R; 2] {
-    let half = constant::<R>(0.5);
+    let Shock { l_11, l_21, l_22 } = Shock::over(tau);
     let decay = (-tau).simd_exp();
-    let square = decay * decay;
-    let q_11 = (R::one() - square).simd_max(constant(f64::MIN_POSITIVE));
-    let q_12 = half - square * (tau + half);
-    let q_22 = half - square * (tau * tau + tau + half);
-    let l_11 = q_11.simd_sqrt();
-    let l_21 = q_12 / l_11;
-    let l_22 = (q_22 - l_21 * l_21).simd_max(R::zero()).simd_sqrt();
     [
         decay * x_1 + l_11 * n_1,
         decay * (x_2 + tau * x_1) + l_21 * n_1 + l_22 * n_2,
     ]
+}
+
+/// Noise of two poles at a: the Cholesky factor of `Q = P − Φ P Φᵀ` with `P = [1 ½; ½ ½]`.
+struct Shock<R: Real> {
+    l_11: R,
+    l_21: R,
+    l_22: R,
+}
+
+impl<R: Real> Shock<R> {
+    #[inline(always)]
+    fn over(tau: R) -> Self {
+        let half = constant::<R>(0.5);
+        let decay = (-tau).simd_exp();
+        let square = decay * decay;
+        let q_11 = (R::one() - square).simd_max(constant(f64::MIN_POSITIVE));
+        let q_12 = half - square * (tau + half);
+        let q_22 = half - square * (tau * tau + tau + half);
+        let l_11 = q_11.simd_sqrt();
+        let l_21 = q_12 / l_11;
+        let l_22 = (q_22 - l_21 * l_21).simd_max(R::zero()).simd_sqrt();
+        Self { l_11, l_21, l_22 }
+    }
 }

@@ -56,6 +56,7 @@
 //! | ground effect `T = T_∞ / (1 − (R/4z)²)` | [`GroundEffect`] | 3.7; Cheeseman and Bennett 1955 |
 //! | blockage `D = ½ ρ C_D S (∣w∣ w − ∣V_c∣ V_c)` | [`Blockage`] | 3.7; Leishman 2006 |
 //! | turbulence, Dryden's filters | [`Dryden`] | 3.7; MIL-F-8785C |
+//! | rotation of the gusts | [`DrydenRotation`] | MIL-F-8785C |
 //! | wind over height | [`Shear`] | MIL-F-8785C |
 //! | process noise `Δv = σ √h n` | [`ProcessNoise`] | 3.7; Gelb 1974 |
 //! | resolution, its partial order | [`Resolution`] | 5.1.4 |
@@ -105,7 +106,9 @@ pub use any::{AnyQuadrotor, InFlight};
 pub use attribution::{Attribution, AttributionError, MOST_PARTS, Parts, Share, shapley_values};
 pub use blockage::Blockage;
 pub use drag::Drag;
-pub use dryden::{Dryden, DrydenNoise, DrydenState};
+pub use dryden::{
+    Dryden, DrydenNoise, DrydenRotation, DrydenRotationNoise, DrydenRotationState, DrydenState, GustStep,
+};
 pub use error::{BuildError, ModelName};
 pub use forces::RotorGeometry;
 pub use ground_effect::GroundEffect;

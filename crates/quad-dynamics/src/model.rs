@@ -90,15 +90,25 @@ pub struct Input<R: Real> {
     pub commands: [R; 4],
     /// Velocity of the air in W, m/s. Felt through drag; models without it don't look.
     pub wind: Vector3<R>,
+    /// Rotation of the air about the axes of W, rad/s: the vehicle's rates count from it. Felt through the damping of
+    /// the rates; models without drag don't look.
+    pub air_rates: Vector3<R>,
 }
 
 impl<R: Real> Input<R> {
     /// Commands in still air.
     #[inline(always)]
     pub fn still_air(commands: [R; 4]) -> Self {
+        Self::in_wind(commands, Vector3::zeros())
+    }
+
+    /// Commands in a wind that does not turn, m/s in W.
+    #[inline(always)]
+    pub fn in_wind(commands: [R; 4], wind: Vector3<R>) -> Self {
         Self {
             commands,
-            wind: Vector3::zeros(),
+            wind,
+            air_rates: Vector3::zeros(),
         }
     }
 }

@@ -23,7 +23,7 @@ pub enum Phenomenon {
     GroundEffect,
     /// Arms that block the slipstream and are dragged down by it ([`crate::Blockage`]).
     Blockage,
-    /// Random gusts about the mean wind ([`crate::Dryden`]).
+    /// Random gusts about the mean wind ([`crate::Dryden`]) and how they turn ([`crate::DrydenRotation`]).
     Turbulence,
     /// Mean wind that grows with height ([`crate::Shear`]).
     WindShear,
@@ -56,7 +56,9 @@ impl Phenomenon {
             Self::VoltageSag => "thrust that falls with load and charge; one state, the charge drawn",
             Self::GroundEffect => "thrust that depends on each rotor's height above the ground",
             Self::Blockage => "thrust lost to the arms in the slipstream, by induced velocity and climb",
-            Self::Turbulence => "random gusts; five states of the shaping filters, outside the model",
+            Self::Turbulence => {
+                "random gusts that push and turn; eight states of the shaping filters, outside the model"
+            }
             Self::WindShear => "mean wind that depends on height",
             Self::ProcessNoise => "random acceleration and angular acceleration, white",
         }

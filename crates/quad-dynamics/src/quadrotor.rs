@@ -150,26 +150,27 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> RotorSet<R, M, S> {
 }
 
 impl<R: Real, M: RotorModel<R>, S: Supply<R>> Quadrotor<R, M, S> {
-    /// Force and moment of everything but gravity, along B, at a state with these rotor inputs.
+    /// Force and moment of everything but gravity, along B, at a state with these rotor inputs in the input's air.
     #[inline(always)]
     pub fn wrench(
         &self,
         state: &QuadrotorState<R, M::State, S::State>,
         inputs: &[RotorInput<R>; 4],
-        wind: &Vector3<R>,
+        input: &Input<R>,
     ) -> crate::Wrench<R> {
         let set = &self.rotor_set;
         let outputs: [RotorOutput<R>; 4] =
             std::array::from_fn(|i| set.rotors[i].output(&state.rotors[i], &inputs[i]));
         let air_velocity = match (&self.drag, &self.blockage) {
             (None, None) => state.body.velocity,
-            _ => state.body.velocity - state.body.attitude.conjugate().rotate(wind),
+            _ => state.body.velocity - state.body.attitude.conjugate().rotate(&input.wind),
         };
         let mut wrench = set
             .geometry
             .wrench(&self.acting(&outputs, &state.body, air_velocity.z));
         if let Some(drag) = &self.drag {
-            let extra = drag.wrench(&air_velocity, &state.body.body_rates);
+            let turning = state.body.attitude.conjugate().rotate(&input.air_rates);
+            let extra = drag.wrench(&air_velocity, &(state.body.body_rates - turning));
             wrench.force += extra.force;
             wrench.moment += extra.moment;
         }
@@ -210,7 +211,7 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> Quadrotor<R, M, S> {
         input: &Input<R>,
     ) -> Vector3<R> {
         let (_, inputs) = self.rotor_set.rotor_inputs(&state.rotors, &state.supply, input);
-        self.wrench(state, &inputs, &input.wind).force / self.body.mass
+        self.wrench(state, &inputs, input).force / self.body.mass
     }
 
     /// Gyroscopic torque and spin-up reaction `−Σ s_i I_R Ω̇_i e_z`, N m along B.
@@ -256,7 +257,7 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> System<R> for Quadrotor<R, M, S> {
         QuadrotorRate {
             body: self
                 .body
-                .derivative(&state.body, &self.wrench(state, &inputs, &input.wind)),
+                .derivative(&state.body, &self.wrench(state, &inputs, input)),
             rotors: std::array::from_fn(|i| set.rotors[i].derivative(&state.rotors[i], &inputs[i])),
             supply: set.supply.derivative(&state.supply, current),
         }

@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use quad_math::{System, rk4};
 use quad_rotor::{RotorOutput, ThrustState};
 
+mod air_rates;
 mod kicks;
 
 /// A handful of roundings of numbers of order ten.

@@ -12,10 +12,10 @@
 //! kinematics for the error-state Kalman filter* (2017), chapters 5 and 6; Markley, *J. Guidance* 26 (2003); Crassidis and
 //! Junkins, *Optimal Estimation of Dynamic Systems*, 2nd ed., section 3.7.
 
-use crate::belief::{Belief, Innovation, Verdict, symmetrised};
-use crate::filter::{Filter, Observation, checked, normalised_square};
+use crate::belief::{Belief, Innovation};
+use crate::filter::{Comparison, Filter, Observation, checked, noise_of, weighed, with_noise};
 use crate::{EstimationError, Process};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// The extended Kalman filter on a process.
 #[derive(Clone, Debug)]
@@ -57,15 +57,9 @@ impl<P: Process> Filter for ExtendedFilter<P> {
     fn predicted(&mut self, input: &P::Input, step_s: f64) -> Result<Belief, EstimationError> {
         let Belief { mean, covariance } = &self.belief;
         let f = self.process.transition_jacobian(mean, input, step_s);
-        let mut p = &f * covariance * f.transpose();
-        let noise = self.process.process_noise(step_s);
-        for (i, q) in noise.iter().enumerate() {
-            p[(i, i)] += q;
-        }
-        Ok(Belief {
-            mean: self.process.transition(mean, input, step_s),
-            covariance: symmetrised(&p),
-        })
+        let p = &f * covariance * f.transpose();
+        let moved = self.process.transition(mean, input, step_s);
+        Ok(with_noise(moved, p, &self.process.process_noise(step_s)))
     }
 
     fn corrected(
@@ -77,36 +71,17 @@ impl<P: Process> Filter for ExtendedFilter<P> {
         let Belief { mean, covariance: p } = &self.belief;
         let h = self.process.observe_jacobian(mean, input, observation.instrument);
         let residual = &observation.values - self.process.observe(mean, input, observation.instrument);
-        let m = residual.len();
-        let r = DMatrix::from_diagonal_element(m, m, observation.deviation.powi(2));
-        let p_ht = p * h.transpose();
-        let s = symmetrised(&(&h * &p_ht + &r));
-        let whitened = normalised_square(&s, &residual)?;
-        let verdict = match gate {
-            Some(gate) if whitened.nis > gate => Verdict::Rejected,
-            _ => Verdict::Used,
-        };
-        let belief = match verdict {
-            Verdict::Rejected => self.belief.clone(),
-            Verdict::Used => {
-                let gain = &p_ht * &whitened.inverse;
-                let error: DVector<f64> = &gain * &residual;
-                let n = p.nrows();
-                let rest = DMatrix::identity(n, n) - &gain * &h;
-                let joseph = &rest * p * rest.transpose() + &gain * &r * gain.transpose();
-                let g = self.process.reset_jacobian(&error);
-                Belief {
-                    mean: self.process.retract(mean, &error),
-                    covariance: symmetrised(&(&g * joseph * g.transpose())),
-                }
-            }
-        };
-        let innovation = Innovation {
+        let (p_ht, r) = (p * h.transpose(), noise_of(observation));
+        let comparison = Comparison {
             residual,
-            covariance: s,
-            nis: whitened.nis,
-            verdict,
+            spread: &h * &p_ht,
+            noise: r.clone(),
+            cross: p_ht,
         };
-        Ok((belief, innovation))
+        weighed(&self.process, &self.belief, comparison, gate, |weight| {
+            let gain = weight.gain;
+            let rest = DMatrix::identity(p.nrows(), p.nrows()) - gain * &h;
+            &rest * p * rest.transpose() + gain * &r * gain.transpose()
+        })
     }
 }

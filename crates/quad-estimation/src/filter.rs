@@ -1,6 +1,6 @@
 //! What extended and unscented filters have in common.
 
-use crate::belief::{Belief, Innovation};
+use crate::belief::{Belief, Innovation, Verdict, symmetrised};
 use crate::error::{finite, positive};
 use crate::{EstimationError, Process};
 use nalgebra::{DMatrix, DVector};
@@ -144,19 +144,80 @@ pub(crate) fn checked<P: Process>(process: &P, belief: Belief) -> Result<Belief,
     Belief::new(belief.mean, belief.covariance)
 }
 
-/// `S⁻¹` and `νᵀ S⁻¹ ν`.
-pub(crate) struct Whitened {
-    pub(crate) inverse: DMatrix<f64>,
-    pub(crate) nis: f64,
+/// The belief about errors of covariance P once Q has been added, with its mean.
+pub(crate) fn with_noise(mean: DVector<f64>, mut p: DMatrix<f64>, noise: &DVector<f64>) -> Belief {
+    for (i, q) in noise.iter().enumerate() {
+        p[(i, i)] += q;
+    }
+    Belief {
+        mean,
+        covariance: symmetrised(&p),
+    }
 }
 
-pub(crate) fn normalised_square(
-    s: &DMatrix<f64>,
-    residual: &DVector<f64>,
-) -> Result<Whitened, EstimationError> {
+/// What a filter expects of an observation, and what it finds.
+pub(crate) struct Comparison {
+    /// ν = y − ŷ.
+    pub(crate) residual: DVector<f64>,
+    /// S without R.
+    pub(crate) spread: DMatrix<f64>,
+    /// R.
+    pub(crate) noise: DMatrix<f64>,
+    /// Covariance C of errors and readings, the `P Hᵀ` of a linear filter.
+    pub(crate) cross: DMatrix<f64>,
+}
+
+/// Gain K and innovation covariance S.
+pub(crate) struct Weight<'a> {
+    pub(crate) gain: &'a DMatrix<f64>,
+    pub(crate) s: &'a DMatrix<f64>,
+}
+
+/// `K = C S⁻¹`, `δ̂ = K ν`, `x̂ ← x̂ ⊞ δ̂`, `P ← G P⁺ Gᵀ` with P⁺ as the filter has it, unless the NIS is beyond the gate.
+pub(crate) fn weighed<P: Process>(
+    process: &P,
+    belief: &Belief,
+    comparison: Comparison,
+    gate: Option<f64>,
+    left: impl FnOnce(&Weight<'_>) -> DMatrix<f64>,
+) -> Result<(Belief, Innovation), EstimationError> {
+    let Comparison {
+        residual,
+        spread,
+        noise,
+        cross,
+    } = comparison;
+    let s = symmetrised(&(spread + noise));
     let factor = s.clone().cholesky().ok_or(EstimationError::NotPositiveDefinite)?;
-    Ok(Whitened {
-        nis: residual.dot(&factor.solve(residual)),
-        inverse: factor.inverse(),
-    })
+    let nis = residual.dot(&factor.solve(&residual));
+    let verdict = match gate {
+        Some(gate) if nis > gate => Verdict::Rejected,
+        _ => Verdict::Used,
+    };
+    let belief = match verdict {
+        Verdict::Rejected => belief.clone(),
+        Verdict::Used => {
+            let gain = cross * factor.inverse();
+            let error = &gain * &residual;
+            let g = process.reset_jacobian(&error);
+            let left = left(&Weight { gain: &gain, s: &s });
+            Belief {
+                mean: process.retract(&belief.mean, &error),
+                covariance: symmetrised(&(&g * left * g.transpose())),
+            }
+        }
+    };
+    let innovation = Innovation {
+        residual,
+        covariance: s,
+        nis,
+        verdict,
+    };
+    Ok((belief, innovation))
+}
+
+/// R of an observation.
+pub(crate) fn noise_of<I>(observation: &Observation<I>) -> DMatrix<f64> {
+    let m = observation.values.len();
+    DMatrix::from_diagonal_element(m, m, observation.deviation.powi(2))
 }

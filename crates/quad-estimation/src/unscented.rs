@@ -12,8 +12,8 @@
 //! filter exactly. Source: van der Merwe, *Sigma-Point Kalman Filters* (2004); Crassidis and Markley, *J. Guidance* 26 (2003),
 //! for the attitude's errors.
 
-use crate::belief::{Belief, Innovation, Verdict, symmetrised};
-use crate::filter::{Filter, Observation, checked, normalised_square};
+use crate::belief::{Belief, Innovation};
+use crate::filter::{Comparison, Filter, Observation, checked, noise_of, weighed, with_noise};
 use crate::{EstimationError, Process};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -163,14 +163,9 @@ impl<P: Process> Filter for UnscentedFilter<P> {
         let mean_error = points.mean(&errors);
         let about = centred(&errors, &mean_error);
         let g = self.process.reset_jacobian(&mean_error);
-        let mut p = &g * points.covariance(&about, &about) * g.transpose();
-        for (i, q) in self.process.process_noise(step_s).iter().enumerate() {
-            p[(i, i)] += q;
-        }
-        Ok(Belief {
-            mean: self.process.retract(&moved[0], &mean_error),
-            covariance: symmetrised(&p),
-        })
+        let p = &g * points.covariance(&about, &about) * g.transpose();
+        let mean = self.process.retract(&moved[0], &mean_error);
+        Ok(with_noise(mean, p, &self.process.process_noise(step_s)))
     }
 
     fn corrected(
@@ -191,34 +186,14 @@ impl<P: Process> Filter for UnscentedFilter<P> {
             .collect();
         let expected = points.mean(&read);
         let about = centred(&read, &expected);
-        let residual = &observation.values - &expected;
-        let m = residual.len();
-        let r = DMatrix::from_diagonal_element(m, m, observation.deviation.powi(2));
-        let s = symmetrised(&(points.covariance(&about, &about) + r));
-        let whitened = normalised_square(&s, &residual)?;
-        let verdict = match gate {
-            Some(gate) if whitened.nis > gate => Verdict::Rejected,
-            _ => Verdict::Used,
+        let comparison = Comparison {
+            residual: &observation.values - &expected,
+            spread: points.covariance(&about, &about),
+            noise: noise_of(observation),
+            cross: points.covariance(&points.errors, &about),
         };
-        let belief = match verdict {
-            Verdict::Rejected => self.belief.clone(),
-            Verdict::Used => {
-                let gain = points.covariance(&points.errors, &about) * &whitened.inverse;
-                let error = &gain * &residual;
-                let left = p - &gain * &s * gain.transpose();
-                let g = self.process.reset_jacobian(&error);
-                Belief {
-                    mean: self.process.retract(mean, &error),
-                    covariance: symmetrised(&(&g * left * g.transpose())),
-                }
-            }
-        };
-        let innovation = Innovation {
-            residual,
-            covariance: s,
-            nis: whitened.nis,
-            verdict,
-        };
-        Ok((belief, innovation))
+        weighed(&self.process, &self.belief, comparison, gate, |weight| {
+            p - weight.gain * weight.s * weight.gain.transpose()
+        })
     }
 }

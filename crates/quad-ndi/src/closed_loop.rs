@@ -34,10 +34,7 @@ pub fn closed_loop_step<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
     h: R,
 ) -> LoopState<R, StateOf<R, M>, C::Memory> {
     let answer = controller.control(&now.memory, &model.flight(&now.state), reference, h);
-    let input = Input {
-        commands: answer.commands,
-        wind: *wind,
-    };
+    let input = Input::in_wind(answer.commands, *wind);
     LoopState {
         state: FixedStep::Rk4.step(model, &now.state, &input, h),
         memory: answer.memory,

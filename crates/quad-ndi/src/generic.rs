@@ -9,7 +9,7 @@
 //! For models whose derivative is affine in the commands with one relative degree for all outputs:
 //! levels 1 and 2 (ν = 2) and 3 (ν = 3), without input limits, at pitch angles below 90°.
 
-use nalgebra::{Matrix4, Matrix6x4, SimdComplexField, Vector3, Vector4, Vector6};
+use nalgebra::{Matrix4, Matrix6x4, SimdComplexField, Vector4, Vector6};
 use quad_dynamics::{Input, QuadrotorModel, StateOf};
 use quad_math::{Flat, Taylor3, output_derivatives};
 
@@ -79,10 +79,7 @@ impl Decoupling {
         }
         // [z, φ, θ, ψ], then x and y for the scale of z.
         let response = |commands: [f64; 4]| {
-            let input = Input {
-                commands: commands.map(Taylor3::from_re),
-                wind: Vector3::from_element(Taylor3::from_re(0.0)),
-            };
+            let input = Input::still_air(commands.map(Taylor3::from_re));
             let derivatives = output_derivatives(
                 |x| model.derivative(x, &input),
                 |x| {

@@ -1,6 +1,7 @@
 //! Why a scenario can't be read, built or changed.
 
 use crate::read::Place;
+use quad_estimation::sensor::SensorError;
 use quad_ndi::{ControllerError, TrajectoryError};
 use sifre::quadrotor::QuadrotorError;
 use sifre::{GridError, ScheduleError, SimulationError};
@@ -126,6 +127,16 @@ pub enum ScenarioError {
         /// Why.
         source: ScheduleError,
     },
+    /// An estimator that is wrong.
+    #[error("quadrotor \"{agent}\", `estimator.{key}`: {source}")]
+    Estimator {
+        /// The agent.
+        agent: String,
+        /// The key below `estimator`.
+        key: String,
+        /// Why.
+        source: EstimatorFault,
+    },
     /// A list that must not be empty.
     #[error("quadrotor \"{agent}\", {key}: give at least one")]
     Empty {
@@ -162,6 +173,32 @@ pub enum ScenarioError {
     /// A simulation that can't be.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
+}
+
+/// What is wrong with an estimator's key.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum EstimatorFault {
+    /// A sensor that can't be.
+    #[error(transparent)]
+    Sensor(#[from] SensorError),
+    /// A second sensor of a kind whose bias the filter estimates.
+    #[error("there is one already: the filter knows one bias of accelerometers and one of gyroscopes")]
+    Twice,
+    /// A field about a sensor that does not feel it.
+    #[error("only a magnetometer feels the magnetic field: leave it out")]
+    Field,
+    /// An error that is not finite, or a standard deviation of one below zero.
+    #[error("it must be finite, and not negative where it is a standard deviation, not {value}")]
+    Error {
+        /// The number.
+        value: f64,
+    },
+    /// A filter that says to be certain.
+    #[error("a filter's standard deviation must be positive and finite, not {value}")]
+    Deviation {
+        /// The number.
+        value: f64,
+    },
 }
 
 /// Why a key of a scenario can't be set.

@@ -25,7 +25,7 @@
 //!
 //! [`Scenario`] mirrors the file; its documentation is that of the keys, and of the JSON schema that editors use
 //! ([`Scenario::json_schema`]). Units are in the keys. An unknown key, a wrong type, a missing key are errors with line,
-//! column and key path. Twelve scenarios that fly, each with comments, are in the `scenarios/` folder.
+//! column and key path. Scenarios that fly, each with comments, are in the `scenarios/` folder.
 //!
 //! # Conventions
 //!
@@ -54,12 +54,13 @@ mod metrics;
 mod read;
 
 pub use build::{AgentInfo, AgentKind, Built};
-pub use error::{KeyError, ScenarioError};
+pub use error::{EstimatorFault, KeyError, ScenarioError};
 pub use file::{
-    Algorithm, AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, EstimatorFile, EtsFile,
-    Format, Law, LevelChange, LimitsFile, LoopFile, OptimiseFile, OutputFile, PID, POSITION, PathFile, Point,
-    Polynomial, ProcessNoiseFile, QuadrotorFile, ReferenceFile, Scenario, SetPoint, StartFile, StopFile,
-    TargetFile, TurbulenceFile, VariableFile, WeightsFile, WindFile, WindStep,
+    Algorithm, AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, ErrorFile, EstimatorFile,
+    EtsFile, Format, InitialDeviationFile, InitialErrorFile, Law, LevelChange, LimitsFile, LoopFile,
+    OptimiseFile, OutputFile, PID, POSITION, PathFile, Point, Polynomial, ProcessNoiseFile, QuadrotorFile,
+    ReferenceFile, Scenario, SensorFile, SensorKind, SensorsFile, SetPoint, StartFile, StopFile, TargetFile,
+    TurbulenceFile, VariableFile, WeightsFile, WindFile, WindStep,
 };
 pub use flight::{End, Ending, Flight};
 pub use key::{get, set};

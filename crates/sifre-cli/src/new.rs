@@ -6,7 +6,7 @@ use crate::report;
 use std::path::PathBuf;
 
 /// The scenarios that come with the project: name and file.
-pub(crate) const READY: [(&str, &str); 19] = [
+pub(crate) const READY: [(&str, &str); 20] = [
     ("template", include_str!("../template.toml")),
     ("hover", include_str!("../../../scenarios/hover.toml")),
     (
@@ -24,6 +24,7 @@ pub(crate) const READY: [(&str, &str); 19] = [
         "estimator-in-the-loop",
         include_str!("../../../scenarios/estimator-in-the-loop.toml"),
     ),
+    ("wrong-start", include_str!("../../../scenarios/wrong-start.toml")),
     (
         "near-the-ground",
         include_str!("../../../scenarios/near-the-ground.toml"),

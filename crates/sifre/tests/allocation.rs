@@ -6,7 +6,7 @@ use allocation_counter::measure;
 use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{AnyController, C1, Reference, Settings};
 use sifre::black_box::CsvBox;
-use sifre::quadrotor::{ProcessNoiseSource, Script, Setup, Turbulence, Wind};
+use sifre::quadrotor::{Gusts, ProcessNoiseSource, Script, Setup, Turbulence, Wind};
 use sifre::{
     Ets, EtsSetup, Facing, Follow, Member, Quadrotor, Schedule, Simulation, StepSize, StopCondition, Target,
 };
@@ -26,6 +26,7 @@ fn simulation() -> Simulation {
         let turbulence = Turbulence {
             w20_m_s: 8.0,
             seed: 1,
+            gusts: Gusts::All,
         };
         let script = Script {
             wind: Wind {

@@ -32,6 +32,7 @@ trait Symmetry {
 
     fn state(&self, state: &RigidBodyState<f64>) -> RigidBodyState<f64>;
     fn polar(&self, vector: &Vector3<f64>) -> Vector3<f64>;
+    fn axial(&self, vector: &Vector3<f64>) -> Vector3<f64>;
     fn per_rotor<T: Copy>(&self, values: [T; 4]) -> [T; 4];
 }
 
@@ -55,6 +56,10 @@ impl Symmetry for Turn {
 
     fn polar(&self, vector: &Vector3<f64>) -> Vector3<f64> {
         Quaternion::from_axis_angle(&Vector3::z(), self.0).rotate(vector)
+    }
+
+    fn axial(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        self.polar(vector)
     }
 
     fn per_rotor<T: Copy>(&self, values: [T; 4]) -> [T; 4] {
@@ -122,12 +127,16 @@ impl Symmetry for Mirror {
                 w: state.attitude.w,
                 v: -(p * state.attitude.v),
             },
-            body_rates: -(p * state.body_rates),
+            body_rates: self.axial(&state.body_rates),
         }
     }
 
     fn polar(&self, vector: &Vector3<f64>) -> Vector3<f64> {
         self.reflection * vector
+    }
+
+    fn axial(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        -(self.reflection * vector)
     }
 
     fn per_rotor<T: Copy>(&self, values: [T; 4]) -> [T; 4] {
@@ -145,6 +154,7 @@ fn transformed(symmetry: &impl Symmetry, draw: &Draw) -> (Snapshot<f64>, Input<f
     let input = Input {
         commands: symmetry.per_rotor(draw.input.commands),
         wind: symmetry.polar(&draw.input.wind),
+        air_rates: symmetry.axial(&draw.input.air_rates),
     };
     (snapshot, input)
 }

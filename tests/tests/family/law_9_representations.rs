@@ -23,7 +23,7 @@ fn wrench(model: &Level2<f64>, body: RigidBodyState<f64>, input: &Input<f64>) ->
         rotors: [(); 4],
         supply: (),
     };
-    model.wrench(&state, &inputs, &input.wind)
+    model.wrench(&state, &inputs, input)
 }
 
 /// Level 2 in the form of Euler-Lagrange: position and velocity in W, `η` and `η̇`.
@@ -96,7 +96,7 @@ proptest! {
         let model = Level2::<f64>::build(&vehicle, &on).unwrap();
         let hover = model.hover(Vector3::zeros(), 0.5);
         let commands = std::array::from_fn(|i| hover.input.commands[i] * (1.0 + pulse[i]));
-        let input = Input { commands, wind };
+        let input = Input::in_wind(commands, wind);
         let attitude = EulerAngles::from_vector(&tilt);
         let mut start = hover.state;
         start.body.attitude = attitude.quaternion();

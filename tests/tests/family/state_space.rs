@@ -154,7 +154,7 @@ fn box_point() -> impl Strategy<Value = BoxPoint> {
                     rotors,
                     charge_drawn,
                 },
-                input: Input { commands, wind },
+                input: Input::in_wind(commands, wind),
             }
         },
     )

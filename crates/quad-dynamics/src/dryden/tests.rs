@@ -6,17 +6,17 @@ use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::PI;
 
 /// The flight of the independent run: h = 20 ft, V = 30 ft/s, W_20 = 25 ft/s.
-const HEIGHT_FT: f64 = 20.0;
-const AIRSPEED_FT_S: f64 = 30.0;
-const W20_FT_S: f64 = 25.0;
+pub(super) const HEIGHT_FT: f64 = 20.0;
+pub(super) const AIRSPEED_FT_S: f64 = 30.0;
+pub(super) const W20_FT_S: f64 = 25.0;
 /// Step, s: a hundredth of the shortest time L_w/V = 0.67 s.
-const STEP_S: f64 = 0.0067;
+pub(super) const STEP_S: f64 = 0.0067;
 
-fn reference() -> Dryden<f64> {
+pub(super) fn reference() -> Dryden<f64> {
     Dryden::low_altitude(HEIGHT_FT * FOOT_M, W20_FT_S * FOOT_M)
 }
 
-fn noise(generator: &mut ChaCha8Rng) -> DrydenNoise<f64> {
+pub(super) fn noise(generator: &mut ChaCha8Rng) -> DrydenNoise<f64> {
     let mut normal = || StandardNormal.sample(generator);
     DrydenNoise {
         along: normal(),
@@ -82,7 +82,7 @@ fn exact_standard_deviations_over_a_long_flight() {
 }
 
 /// The one-sided spectra of MIL-F-8785C in frequency, (ft/s)²/(rad/s), written out apart from the filters.
-fn spectrum(axis: usize, omega: f64) -> f64 {
+pub(super) fn spectrum(axis: usize, omega: f64) -> f64 {
     let base = 0.177 + 0.000_823 * HEIGHT_FT;
     let (sigma, length) = match axis {
         2 => (0.1 * W20_FT_S, HEIGHT_FT),
@@ -97,7 +97,7 @@ fn spectrum(axis: usize, omega: f64) -> f64 {
 }
 
 /// Power of windowed (Hann) segments at one frequency, averaged: Welch's method, overlap a half.
-fn welch(samples: &[f64], omega: f64, segment: usize) -> f64 {
+pub(super) fn welch(samples: &[f64], omega: f64, segment: usize) -> f64 {
     let hann: Vec<f64> = (0..segment)
         .map(|k| (PI * k as f64 / segment as f64).sin().powi(2))
         .collect();

@@ -43,6 +43,18 @@ impl Vehicle {
         self.weight() / ROTORS
     }
 
+    /// Span b, m: from tip to tip of the two rotors that are farthest apart, from hub to hub without a propeller;
+    /// at least an arm.
+    #[must_use]
+    pub fn span(&self) -> f64 {
+        let hubs = self.rotors.iter().map(|rotor| rotor.position);
+        let pairs = hubs
+            .clone()
+            .flat_map(|a| hubs.clone().map(move |b| (a - b).norm()));
+        let diameter = self.propeller.as_ref().map_or(0.0, |p| p.diameter);
+        pairs.fold(self.airframe.arm_length, f64::max) + diameter
+    }
+
     /// Range of the zeroed command u: lower end `ū_min − ū_0` and upper end `ū_max − ū_0`.
     #[must_use]
     pub fn zeroed_range(&self) -> std::ops::RangeInclusive<f64> {

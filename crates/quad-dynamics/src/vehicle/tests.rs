@@ -19,6 +19,15 @@ fn exact_builtin_vehicles_are_valid() {
     assert_eq!(Vehicle::crazyflie().name, "Crazyflie 2");
 }
 
+/// Two arms of 0.2 m and a propeller of 10 inches, from tip to tip; from hub to hub without it.
+#[test]
+fn exact_span_of_the_qball() {
+    let mut vehicle = Vehicle::qball_x4();
+    approx::assert_relative_eq!(vehicle.span(), 0.4 + 0.254, max_relative = 1e-12);
+    vehicle.propeller = None;
+    approx::assert_relative_eq!(vehicle.span(), 0.4, max_relative = 1e-12);
+}
+
 /// `M_x = L (T_3 − T_4)`, `M_y = L (T_2 − T_1)`, rotors 1, 2 clockwise, 3, 4 counter-clockwise.
 #[test]
 #[rustfmt::skip]

@@ -34,6 +34,9 @@ pub struct RememberedInstant {
     pub commands: [f64; 4],
     /// Wind that acted up to it, m/s in W.
     pub wind_m_s: [f64; 3],
+    /// Rotation of the air that acted up to it, rad/s in W.
+    #[serde(default)]
+    pub air_rates_rad_s: [f64; 3],
     /// What was read at it, in the order of arrival.
     pub readings: Vec<RememberedReading>,
 }
@@ -61,6 +64,7 @@ impl RememberedInstant {
             time_ns: epoch.time_ns,
             commands: epoch.input_before.commands,
             wind_m_s: epoch.input_before.wind.into(),
+            air_rates_rad_s: epoch.input_before.air_rates.into(),
             readings: epoch.measurements.iter().map(reading).collect(),
         }
     }
@@ -77,6 +81,7 @@ impl RememberedInstant {
             input_before: Input {
                 commands: self.commands,
                 wind: Vector3::from(self.wind_m_s),
+                air_rates: Vector3::from(self.air_rates_rad_s),
             },
             measurements: self.readings.iter().map(observation).collect(),
         }
@@ -139,8 +144,9 @@ impl<F: Filter<Process = LevelProcess>> Estimator<F> {
         let mut epochs: VecDeque<Epoch> = VecDeque::new();
         for instant in &memory.instants {
             let epoch = instant.epoch(self.filter.belief().clone());
-            for &value in epoch.input_before.commands.iter().chain(&instant.wind_m_s) {
-                crate::error::finite("a remembered command or wind", value)?;
+            let air = instant.wind_m_s.iter().chain(&instant.air_rates_rad_s);
+            for &value in epoch.input_before.commands.iter().chain(air) {
+                crate::error::finite("a remembered command, wind or rotation of the air", value)?;
             }
             let epoch = match epochs.back() {
                 None => epoch,

@@ -98,6 +98,7 @@ fn lifted<R: Real>(input: &Input<f64>) -> Input<R> {
     Input {
         commands: input.commands.map(constant),
         wind: input.wind.map(constant),
+        air_rates: input.air_rates.map(constant),
     }
 }
 

@@ -1,6 +1,7 @@
 //! From a scenario to agents.
 
 mod controller;
+mod estimator;
 mod guidance;
 mod quadrotor;
 mod start;

@@ -1,13 +1,11 @@
 //! Quadrotors.
 
-use super::{AgentInfo, AgentKind, Built, Task, controller, own_seed, start};
+use super::{AgentInfo, AgentKind, Built, Task, controller, estimator, own_seed, start};
 use crate::error::ScenarioError;
-use crate::file::{EstimatorFile, LevelChange, QuadrotorFile, Scenario, TurbulenceFile};
+use crate::file::{LevelChange, QuadrotorFile, Scenario, TurbulenceFile};
 use crate::library::{Files, vehicle};
 use quad_dynamics::{CommandLimits, Level, Phenomenon, PhenomenonSet};
-use sifre::quadrotor::{
-    EstimateUse, Estimation, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind,
-};
+use sifre::quadrotor::{Gusts, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
 use sifre::{Facing, Member, Quadrotor, Schedule, ScheduleError};
 use std::sync::Arc;
 
@@ -46,10 +44,7 @@ pub(super) fn add(
         },
         velocity_m_s: begin.velocity.into(),
         script: script(file, own_seed(scenario.seed, &file.name))?,
-        estimation: file.estimator.as_ref().map(|estimator| Estimation {
-            vehicle: Some(believed),
-            ..estimation(estimator, own_seed(scenario.seed, &file.name))
-        }),
+        estimation: estimator::build(built, file, believed, own_seed(scenario.seed, &file.name))?,
         substeps: file.substeps,
         ..setup
     };
@@ -67,20 +62,8 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Its sensors and filter.
-fn estimation(file: &EstimatorFile, seed: u64) -> Estimation {
-    let level = choice(file.level, file.phenomena.as_ref());
-    Estimation {
-        filter: file.filter,
-        used: match file.in_loop {
-            true => EstimateUse::InLoop,
-            false => EstimateUse::Beside,
-        },
-        ..Estimation::new(level, file.sensors.suite(), seed)
-    }
-}
-
-fn choice(level: Level, phenomena: Option<&PhenomenonSet>) -> LevelChoice {
+/// A level with what is switched on at it.
+pub(super) fn choice(level: Level, phenomena: Option<&PhenomenonSet>) -> LevelChoice {
     LevelChoice {
         level,
         phenomena: phenomena.cloned(),
@@ -128,7 +111,7 @@ fn script(file: &QuadrotorFile, seed: u64) -> Result<Script, ScenarioError> {
             .map_err(refuse("command_offsets"))?,
         wind: Wind {
             shear: file.wind.shear,
-            turbulence: turbulence.map(|TurbulenceFile { w20_m_s }| Turbulence { w20_m_s, seed }),
+            turbulence: turbulence.map(|file| gusts(file, seed)),
             ..Wind::default()
         },
         process_noise: file.process_noise.map(|noise| ProcessNoiseSource {
@@ -138,6 +121,18 @@ fn script(file: &QuadrotorFile, seed: u64) -> Result<Script, ScenarioError> {
         }),
         rule: file.level_rule.clone(),
     })
+}
+
+/// Its turbulence.
+fn gusts(file: TurbulenceFile, seed: u64) -> Turbulence {
+    Turbulence {
+        w20_m_s: file.w20_m_s,
+        seed,
+        gusts: match file.rotational {
+            true => Gusts::All,
+            false => Gusts::Linear,
+        },
+    }
 }
 
 /// Says so if the wind can't be felt.

@@ -1,6 +1,7 @@
 //! Estimators in a scenario file.
 
 use super::quadrotor::{level, phenomena, three};
+use super::{InitialDeviationFile, InitialErrorFile, SensorsFile};
 use quad_dynamics::{Level, PhenomenonSet};
 use quad_estimation::sensor::Quality;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -23,11 +24,15 @@ pub struct EstimatorFile {
     /// Which Kalman filter: `extended` or `unscented`.
     #[schemars(schema_with = "filter")]
     pub filter: FilterKind,
-    /// How good accelerometer, gyroscope, magnetometer, sonar and position fixes are: `good`, `poor` or `very-poor`.
-    #[schemars(schema_with = "quality")]
-    pub sensors: Quality,
+    /// How good accelerometer, gyroscope, magnetometer, sonar and position fixes are (`good`, `poor` or `very-poor`), or a list of
+    /// sensors of one's own.
+    pub sensors: SensorsFile,
     /// Whether the controller sees the estimate instead of the flight; if not, it is recorded and nothing else.
     pub in_loop: bool,
+    /// What it is told wrong of the flight that it begins with; nothing unless told.
+    pub initial_error: InitialErrorFile,
+    /// How uncertain it says to be of what it is told.
+    pub initial_deviation: InitialDeviationFile,
 }
 
 impl Default for EstimatorFile {
@@ -37,16 +42,14 @@ impl Default for EstimatorFile {
             level: three(),
             phenomena: None,
             filter: FilterKind::Extended,
-            sensors: Quality::Poor,
+            sensors: SensorsFile::Of(Quality::Poor),
             in_loop: true,
+            initial_error: InitialErrorFile::default(),
+            initial_deviation: InitialDeviationFile::default(),
         }
     }
 }
 
 fn filter(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "enum": [FilterKind::Extended, FilterKind::Unscented] })
-}
-
-fn quality(_: &mut SchemaGenerator) -> Schema {
-    json_schema!({ "enum": Quality::ALL })
 }

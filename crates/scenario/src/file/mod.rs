@@ -6,6 +6,7 @@ mod optimise;
 mod output;
 mod quadrotor;
 mod reference;
+mod sensor;
 mod station;
 
 pub use controller::{AttitudeFile, ControllerFile, Law, LoopFile, PID, POSITION};
@@ -17,6 +18,7 @@ pub use quadrotor::{
     WindStep,
 };
 pub use reference::{Circle, Point, Polynomial, ReferenceFile, SetPoint};
+pub use sensor::{ErrorFile, InitialDeviationFile, InitialErrorFile, SensorFile, SensorKind, SensorsFile};
 pub use station::{EtsFile, PathFile, TargetFile};
 
 use crate::error::ScenarioError;

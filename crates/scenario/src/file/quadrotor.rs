@@ -101,12 +101,16 @@ pub struct WindFile {
     pub turbulence: Option<TurbulenceFile>,
 }
 
-/// Dryden's turbulence at low altitude.
+/// Dryden's turbulence at low altitude, by MIL-F-8785C.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TurbulenceFile {
     /// Wind 20 ft above the ground, m/s, which sets the intensity: 7.7 is light, 15 moderate, 23 severe.
     pub w20_m_s: f64,
+    /// Whether the gusts turn the air too, which acts on the damping of the body's rates: the specification has it so, and so
+    /// does this unless told `false`. The velocity of the gusts is the same either way.
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub rotational: bool,
 }
 
 /// White noise on the accelerations, for what nothing else explains.
@@ -168,6 +172,15 @@ const fn step() -> StepSize {
 
 const fn one() -> NonZeroU32 {
     NonZeroU32::MIN
+}
+
+const fn yes() -> bool {
+    true
+}
+
+// By reference, as serde calls it.
+const fn is_yes(value: &bool) -> bool {
+    *value
 }
 
 fn object(_: &mut SchemaGenerator) -> Schema {

@@ -211,3 +211,108 @@ fn exact_estimators_that_are_wrong_are_refused() {
         scenario::Scenario::from_toml_str(&beside, "test").unwrap_or_else(|error| panic!("{error}"));
     assert!(scenario.build(&()).is_ok());
 }
+
+#[test]
+fn exact_sensors_and_starts_that_are_wrong_are_told_with_their_key() {
+    let with = |keys: &str| one(SECOND, &format!("estimator = {{ {keys} }}"), "");
+    let sensor = |keys: &str| {
+        let gyroscope = "{ kind = \"gyroscope\", rate_hz = 100, noise = 0.01 }";
+        with(&format!("sensors = [{gyroscope}, {{ {keys} }}]"))
+    };
+    let good = "kind = \"sonar\", rate_hz = 10, noise = 0.03";
+    let wrong = |from: &str, to: &str| sensor(&good.replace(from, to));
+    for (text, key, said) in [
+        (wrong("rate_hz = 10", "rate_hz = 0"), "rate_hz", "0 Hz"),
+        (wrong("rate_hz = 10", "rate_hz = -5"), "rate_hz", "-5 Hz"),
+        (wrong("0.03", "-0.03"), "noise", "not -0.03"),
+        (wrong("0.03", "0"), "noise", "neither noise nor quantum"),
+        (wrong("0.03", "nan"), "noise", "NaN"),
+        (
+            sensor(&format!("{good}, turn_on_bias = -1")),
+            "turn_on_bias",
+            "not -1",
+        ),
+        (sensor(&format!("{good}, bias_drift = inf")), "bias_drift", "inf"),
+        (sensor(&format!("{good}, quantum = -1")), "quantum", "not -1"),
+        (sensor(&format!("{good}, delay_s = -0.1")), "delay_s", "not -0.1"),
+        (
+            sensor(&format!("{good}, dropout = 1")),
+            "dropout",
+            "below 1, not 1",
+        ),
+        (sensor(&format!("{good}, range = [3, 3]")), "range", "empty"),
+        (
+            sensor(&format!("{good}, field_ut = [1, 0, 0]")),
+            "field_ut",
+            "only a magnetometer",
+        ),
+        (
+            sensor("kind = \"magnetometer\", rate_hz = 10, noise = 1, field_ut = [0, 0, 0]"),
+            "field_ut",
+            "not zero",
+        ),
+        (wrong("sonar", "gyroscope"), "kind", "one already"),
+    ] {
+        says(
+            &text,
+            &["\"alpha\"", &format!("`estimator.sensors[1].{key}`"), said],
+        );
+    }
+    // What is no list of sensors says so in its own words, at its key.
+    says(
+        &wrong("sonar", "lidar"),
+        &["quadrotor[0].estimator.sensors[1].kind", "lidar", "position-fix"],
+    );
+    says(
+        &wrong("noise", "nose"),
+        &["quadrotor[0].estimator.sensors[1].nose"],
+    );
+    says(
+        &wrong(", noise = 0.03", ""),
+        &["quadrotor[0].estimator.sensors[1].noise", "missing"],
+    );
+    says(&with("sensors = 3"), &["estimator.sensors", "a list of sensors"]);
+
+    for (keys, key, said) in [
+        (
+            "initial_error = { position_m = -1 }",
+            "initial_error.position_m",
+            "not -1",
+        ),
+        (
+            "initial_error = { velocity_m_s = [0, nan, 0] }",
+            "initial_error.velocity_m_s",
+            "NaN",
+        ),
+        (
+            "initial_error = { attitude_deg = inf }",
+            "initial_error.attitude_deg",
+            "inf",
+        ),
+        (
+            "initial_deviation = { position_m = 0 }",
+            "initial_deviation.position_m",
+            "not 0",
+        ),
+        (
+            "initial_deviation = { velocity_m_s = -1 }",
+            "initial_deviation.velocity_m_s",
+            "not -1",
+        ),
+        (
+            "initial_deviation = { attitude_deg = nan }",
+            "initial_deviation.attitude_deg",
+            "NaN",
+        ),
+    ] {
+        says(&with(keys), &["\"alpha\"", &format!("`estimator.{key}`"), said]);
+    }
+    says(
+        &with("initial_error = { position_m = [1, 2] }"),
+        &["estimator.initial_error.position_m"],
+    );
+    says(
+        &with("initial_error = { position_m = \"far\" }"),
+        &["estimator.initial_error.position_m", "three numbers"],
+    );
+}

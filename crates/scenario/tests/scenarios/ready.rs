@@ -158,6 +158,11 @@ fn prop_near_the_ground_all_phenomena_act_together() {
     assert!((saved - expected).abs() < 3e-4, "{saved} instead of {expected}");
     assert!(calm.column("alpha.wind.y").iter().all(|wind| *wind == 0.0));
     assert!(flown.column("alpha.wind.y").iter().any(|wind| *wind != 0.0));
+    // Gusts turn the air unless they are told not to, and push alike at the start.
+    assert!(flown.column("alpha.air_rate.x").iter().any(|rate| *rate != 0.0));
+    let linear = fly(&ready("near-the-ground").replace("w20_m_s = 7.7", "w20_m_s = 7.7, rotational = false"));
+    assert_eq!(linear.at("alpha.wind.x", 0.0), flown.at("alpha.wind.x", 0.0));
+    assert!(linear.recording.column("alpha.air_rate.x").is_none());
 }
 
 #[test]
@@ -359,4 +364,82 @@ fn prop_the_estimator_is_in_the_loop() {
         let channel = format!("alpha.{channel}");
         assert_eq!(beside.column(&channel), without.column(&channel), "{channel}");
     }
+}
+
+/// The filter begins where it is told, 2 m to the north of the truth and 20 degrees to its right, and finds the truth to within
+/// what it says of itself, which is better than a fix of 0.5 m.
+#[test]
+fn exact_a_wrong_start_is_found_out() {
+    let flown = done("wrong-start");
+    let error = |axis: &str, time_s: f64| {
+        flown.at(&format!("alpha.estimate.{axis}"), time_s) - flown.at(&format!("alpha.{axis}"), time_s)
+    };
+    let heading = |time_s| error("attitude.yaw", time_s).to_degrees();
+    // The first fix is still on its way: what is known of the north is what was told.
+    assert!((error("position.x", 0.0) - 2.0).abs() < 1e-9);
+    assert!(error("position.y", 0.0).abs() < 1e-9);
+    assert!((flown.at("alpha.estimate.sd.position.x", 0.0) - 2.0).abs() < 1e-9);
+    let late: Vec<f64> = (1000..=2000).map(|k| f64::from(k) / 100.0).collect();
+    for axis in ["position.x", "position.y", "position.z"] {
+        let square: f64 = late.iter().map(|&t| error(axis, t).powi(2)).sum();
+        let rms = (square / late.len() as f64).sqrt();
+        let stated = flown.last(&format!("alpha.estimate.sd.{axis}"));
+        // Ten seconds hold a few independent errors: by twice what it says, it would be wrong about itself.
+        assert!(rms < 2.0 * stated && stated < 0.5, "{axis}: {rms} m, {stated} m");
+    }
+    let worst = late.iter().map(|&t| heading(t).abs()).fold(0.0, f64::max);
+    assert!(worst < 5.0, "{worst} degrees");
+    // It was flown by the wrong belief: the vehicle went away from where it was asked to be, and came back.
+    let away = |t: f64| (flown.at("alpha.position.x", t)).hypot(flown.at("alpha.position.y", t));
+    assert!(away(2.0) > 1.0, "{} m", away(2.0));
+    assert!(away(20.0) < 0.6, "{} m", away(20.0));
+    // Told right, it knows the north to 0.1 m.
+    let told = ready("wrong-start")
+        .replace("duration_s = 20.0", "duration_s = 0.1")
+        .replace("initial_error = {", "# {")
+        .replace("initial_deviation = {", "# {");
+    let right = fly(&told);
+    assert!((right.at("alpha.estimate.sd.position.x", 0.0) - 0.1).abs() < 1e-9);
+    assert!((right.at("alpha.estimate.position.x", 0.0)).abs() < 1e-9);
+}
+
+/// An error that is drawn is stated unless something else is said; sensors may be listed in a line; a list of the sensors of a quality is
+/// that quality.
+#[test]
+fn agree_estimators_said_in_other_words() {
+    let text = |estimator: &str| {
+        format!(
+            "name = \"test\"\nduration_s = 0.2\n[[quadrotor]]\nname = \"alpha\"\nstep_s = 0.005\n\
+             reference = {{ kind = \"hold\", position_m = [0, 0, -2] }}\nestimator = {{ {estimator} }}"
+        )
+    };
+    let drawn = fly(&text("sensors = [], initial_error = { position_m = 3 }"));
+    assert!((drawn.at("alpha.estimate.sd.position.y", 0.0) - 3.0).abs() < 1e-9);
+    let error = drawn.at("alpha.estimate.position.y", 0.0) - drawn.at("alpha.position.y", 0.0);
+    assert!(error.abs() > 1e-3 && error.abs() < 15.0, "{error}");
+    let list = "[{ kind = \"accelerometer\", rate_hz = 100, noise = 0.2, turn_on_bias = 0.3, bias_drift = 0.005 }, \
+         { kind = \"gyroscope\", rate_hz = 100, noise = 0.01, turn_on_bias = 0.03, bias_drift = 0.0005 }, \
+         { kind = \"magnetometer\", rate_hz = 20, noise = 2 }, \
+         { kind = \"sonar\", rate_hz = 10, noise = 0.03, dropout = 0.05, range = [0.2, 7.65] }, \
+         { kind = \"position-fix\", rate_hz = 5, noise = 0.1, delay_s = 0.05, dropout = 0.05 }]";
+    let (listed, named) = (
+        fly(&text(&format!("sensors = {list}"))),
+        fly(&text("sensors = \"poor\"")),
+    );
+    for channel in [
+        "alpha.position.x",
+        "alpha.estimate.velocity.z",
+        "alpha.estimate.attitude.yaw",
+    ] {
+        assert_eq!(listed.column(channel), named.column(channel), "{channel}");
+    }
+    // A sensor that is too fast for the steps is told.
+    let fast = list.replace("rate_hz = 100, noise = 0.01", "rate_hz = 1000, noise = 0.01");
+    let scenario =
+        scenario::Scenario::from_toml_str(&text(&format!("sensors = {fast}")), "test").expect("read");
+    let notes = scenario.build(&()).expect("built").notes.join("\n");
+    assert!(
+        notes.contains("sensors[1]") && !notes.contains("sensors[0]"),
+        "{notes}"
+    );
 }

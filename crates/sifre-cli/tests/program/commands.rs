@@ -162,7 +162,7 @@ fn agree_the_template_explains_keys_that_exist() {
         .collect();
     assert!(found > 25, "{found}");
     folder.write("all.toml", format!("{head}{}", uncommented.join("\n")));
-    // Level 3 from 5 s on is no level for ground-level surprises: it flies to the end.
+    // Level 4 from 5 s on has the drag that the gusts are felt through: it flies to the end.
     folder
         .run(&["run", "-q", "all.toml", "--set", "stop.arrived_within_m=1e-9"])
         .exits(0);

@@ -2,32 +2,22 @@
 //!
 //! ```text
 //! wind(t, h) = gain(h) (constant + steps(t)) + gust      gain 1 where wind-shear is off, gust 0 where turbulence is off
+//! ω_air      = rotation of the gusts                     where turbulence is on, unless it is left out
 //! ```
 //!
-//! Velocities of the air in W: a wind of `[-5, 0, 0]` blows to the south and pushes to the south. The gust lies along and across
-//! the horizontal mean wind, to the north in still air; its field is flown through at the airspeed against the mean wind.
-//! Step n draws from stream n of a ChaCha8 generator: a pure function of the seed and the step, so the filters' state
-//! is all that a snapshot needs.
+//! Velocities of the air in W: a wind of `[-5, 0, 0]` blows to the south and pushes to the south. How gusts go on: `gusts.rs`.
 
+use super::gusts::{Normals, PROCESS_NOISE_STREAM};
 use crate::agent::Moment;
 use crate::schedule::Schedule;
 use nalgebra::Vector3;
-use quad_dynamics::{
-    Dryden, DrydenNoise, DrydenState, Flight, Kick, Phenomenon, PhenomenonSet, ProcessNoise, Shear,
-};
+use quad_dynamics::{Kick, Phenomenon, ProcessNoise, Shear};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
 use serde::{Deserialize, Serialize};
 
 /// Fastest wind, m/s, that is believed: the strongest gust measured outside a tornado was 113 m/s (Barrow Island, 1996).
 pub const STRONGEST_WIND_M_S: f64 = 120.0;
-
-/// Horizontal mean wind below which there is no direction to speak of, m/s.
-const STILL_M_S: f64 = 1e-6;
-
-/// Marks the streams of the process noise, so that one seed for both makes no twins.
-const PROCESS_NOISE_STREAM: u64 = 1 << 63;
 
 /// The wind about a quadrotor.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,6 +43,20 @@ pub struct Turbulence {
     pub w20_m_s: f64,
     /// Seed of the gusts.
     pub seed: u64,
+    /// Which gusts there are; all unless told.
+    #[serde(default)]
+    pub gusts: Gusts,
+}
+
+/// Which of the gusts of MIL-F-8785C there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Gusts {
+    /// Velocity and rotation of the air, `u, v, w` and `p, q, r`, as the specification has them.
+    #[default]
+    All,
+    /// Velocity alone. It is the same as with rotation: this draws from numbers of its own.
+    Linear,
 }
 
 /// White noise on the accelerations. Acts where `process-noise` is on.
@@ -164,96 +168,6 @@ impl ProcessNoiseSource {
     }
 }
 
-/// The air as it is about one quadrotor: wind, and the state of its gusts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Air {
-    /// State of the shaping filters.
-    pub(super) gusts: DrydenState<f64>,
-}
-
-impl Air {
-    /// The air at the start: turbulence that has gone on for ever.
-    pub(super) fn new(wind: &Wind) -> Self {
-        let seed = wind.turbulence.map_or(0, |t| t.seed);
-        // The last stream before those of the process noise; no run has that many steps.
-        let noise = Normals::of_step(seed, PROCESS_NOISE_STREAM - 1).dryden();
-        Self {
-            gusts: DrydenState::stationary(&noise),
-        }
-    }
-
-    /// Velocity of the air in W, m/s, as a model with these phenomena meets it: `mean` is the wind at the reference height.
-    pub(super) fn velocity(
-        &self,
-        wind: &Wind,
-        mean: Vector3<f64>,
-        flight: &Flight<f64>,
-        on: &PhenomenonSet,
-    ) -> Vector3<f64> {
-        let mean = sheared(wind, mean, flight, on);
-        match wind.turbulence {
-            Some(turbulence) if on.contains(Phenomenon::Turbulence) => {
-                let dryden = Dryden::low_altitude(-flight.position.z, turbulence.w20_m_s);
-                mean + along(&mean, dryden.gust(&self.gusts))
-            }
-            _ => mean,
-        }
-    }
-
-    /// The gusts go on over the step that begins at this instant.
-    pub(super) fn advance(
-        &mut self,
-        wind: &Wind,
-        mean: Vector3<f64>,
-        flight: &Flight<f64>,
-        on: &PhenomenonSet,
-        now: &Moment<'_>,
-    ) {
-        let Some(turbulence) = wind.turbulence else {
-            return;
-        };
-        let airspeed = (flight.velocity - sheared(wind, mean, flight, on)).norm();
-        let dryden = Dryden::low_altitude(-flight.position.z, turbulence.w20_m_s);
-        let noise = Normals::of_step(turbulence.seed, step_number(now)).dryden();
-        self.gusts = dryden.step(&self.gusts, airspeed, now.step_s, &noise);
-    }
-
-    /// What it must remember, as numbers.
-    pub(super) fn memory(&self) -> [f64; 5] {
-        let DrydenState { along, across, down } = self.gusts;
-        [along, across[0], across[1], down[0], down[1]]
-    }
-
-    /// The air that was remembered.
-    pub(super) fn remembered([along, a, b, c, d]: [f64; 5]) -> Self {
-        Self {
-            gusts: DrydenState {
-                along,
-                across: [a, b],
-                down: [c, d],
-            },
-        }
-    }
-}
-
-fn sheared(wind: &Wind, mean: Vector3<f64>, flight: &Flight<f64>, on: &PhenomenonSet) -> Vector3<f64> {
-    match &wind.shear {
-        Some(shear) if on.contains(Phenomenon::WindShear) => mean * shear.gain(-flight.position.z),
-        _ => mean,
-    }
-}
-
-/// A gust along, across to the right of, and below a mean wind, in W.
-fn along(mean: &Vector3<f64>, gust: Vector3<f64>) -> Vector3<f64> {
-    let speed = mean.x.hypot(mean.y);
-    let (c, s) = if speed > STILL_M_S {
-        (mean.x / speed, mean.y / speed)
-    } else {
-        (1.0, 0.0)
-    };
-    Vector3::new(c * gust.x - s * gust.y, s * gust.x + c * gust.y, gust.z)
-}
-
 /// Which of the agent's steps begins at this instant.
 pub(super) fn step_number(now: &Moment<'_>) -> u64 {
     now.time_ns / now.step.ns()
@@ -264,29 +178,4 @@ pub(super) fn random(seed: u64, stream: u64) -> ChaCha8Rng {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(stream);
     generator
-}
-
-/// Standard normal numbers of one step.
-struct Normals(ChaCha8Rng);
-
-impl Normals {
-    fn of_step(seed: u64, stream: u64) -> Self {
-        Self(random(seed, stream))
-    }
-
-    fn next(&mut self) -> f64 {
-        StandardNormal.sample(&mut self.0)
-    }
-
-    fn vector(&mut self) -> Vector3<f64> {
-        Vector3::from_fn(|_, _| self.next())
-    }
-
-    fn dryden(&mut self) -> DrydenNoise<f64> {
-        DrydenNoise {
-            along: self.next(),
-            across: [self.next(), self.next()],
-            down: [self.next(), self.next()],
-        }
-    }
 }

@@ -7,7 +7,7 @@
 //!          pilot     sees what the filter believes (in the loop) or the flight (beside it)
 //! ```
 //!
-//! The filter knows the commands, the vehicle that it believes in and where it was put down; it knows neither wind nor
+//! The filter knows the commands, the vehicle that it believes in and where it was put down (rightly or wrongly, [`InitialError`]); it knows neither wind nor
 //! disturbances of the commands: its disturbance of the specific force is there for them. What is published is the flight,
 //! not the estimate, so others and guidance that looks at others or at itself (`Facing`) see the truth.
 //!
@@ -17,10 +17,10 @@
 
 use super::LevelChoice;
 use super::air::{random, step_number};
+use super::initial_error::{InitialError, InitialErrorFault};
 use crate::agent::{MemoryError, Moment};
 use crate::exact::Exact;
-use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, Input, Vehicle};
+use quad_dynamics::{AnyQuadrotor, Input, Snapshot, Vehicle};
 use quad_estimation::sensor::{Seen, SensorSuite, SuiteState};
 use quad_estimation::{
     AnyFilter, Estimate, EstimationError, Estimator, EstimatorMemory, ExtendedFilter, Filter,
@@ -70,9 +70,11 @@ pub struct Estimation {
     pub used: EstimateUse,
     /// What disturbs the filter's model.
     pub noise: ProcessNoise,
-    /// How uncertain it is at the start of the flight that it is told.
+    /// What it is told wrong of the flight that it begins with; nothing unless told.
+    pub error: InitialError,
+    /// How uncertain it says to be of what it is told.
     pub uncertainty: InitialUncertainty,
-    /// Seed of biases and noise of the sensors.
+    /// Seed of biases and noise of the sensors, and of errors that are drawn.
     pub seed: u64,
 }
 
@@ -93,8 +95,15 @@ impl Estimation {
             noise: noise.with_drifts_of(sensors.sensors()),
             uncertainty: InitialUncertainty::default().with_biases_of(sensors.sensors()),
             sensors,
+            error: InitialError::default(),
             seed,
         }
+    }
+
+    /// What the filter is told of a flight.
+    fn told(&self, flight: &Snapshot<f64>) -> Snapshot<f64> {
+        // Before the stream that the sensors are turned on with; no run has that many steps.
+        self.error.told(flight, &mut random(self.seed, SENSOR_STREAM - 2))
     }
 }
 
@@ -107,6 +116,9 @@ pub enum EstimationSetupError {
     /// It can't begin.
     #[error("the estimator: {0}")]
     Filter(#[from] EstimationError),
+    /// What it is told is none.
+    #[error("the estimator: {0}")]
+    Error(#[from] InitialErrorFault),
     /// The pilot can't fly by what it knows.
     #[error("the estimator is in the loop, but its model is too low for the pilot: {0}")]
     Pairing(#[from] ControllerError),
@@ -146,7 +158,9 @@ impl Estimating {
         let vehicle = setup.vehicle.as_deref().unwrap_or(flown);
         let process = LevelProcess::new(level, vehicle, &setup.level.phenomena(), setup.noise)?;
         let input = quadrotor.hover_input();
-        let belief = process.belief(&quadrotor.snapshot(&input), &input, &setup.uncertainty)?;
+        setup.error.check()?;
+        let told = setup.told(&quadrotor.snapshot(&input));
+        let belief = process.belief(&told, &input, &setup.uncertainty)?;
         let filter = match setup.filter {
             FilterKind::Extended => AnyFilter::Extended(ExtendedFilter::new(process, belief)?),
             FilterKind::Unscented => {
@@ -177,9 +191,9 @@ impl Estimating {
         quadrotor: &AnyQuadrotor<f64>,
         input: &Input<f64>,
     ) -> Result<(), EstimationError> {
-        let flight = quadrotor.snapshot(input);
+        let told = self.setup.told(&quadrotor.snapshot(input));
         let process = self.estimator.filter().process();
-        let belief = process.belief(&flight, input, &self.setup.uncertainty)?;
+        let belief = process.belief(&told, input, &self.setup.uncertainty)?;
         self.estimator.restart(belief, self.sent)?;
         self.sensors.pending.clear();
         Ok(())
@@ -217,10 +231,7 @@ impl Estimating {
 
     /// The pilot sends these commands until the next instant.
     pub(super) fn send(&mut self, commands: [f64; 4]) {
-        self.sent = Input {
-            commands,
-            wind: Vector3::zeros(),
-        };
+        self.sent = Input::still_air(commands);
     }
 
     /// What the filter says of the flight.

@@ -1,6 +1,7 @@
 //! What a quadrotor needs to go on later, and how it is read.
 
 use super::estimation::{Estimating, EstimatingMemory};
+use super::gusts::MEMORY;
 use super::{Quadrotor, model};
 use crate::agent::MemoryError;
 use crate::exact::{Exact, exact, plain};
@@ -20,7 +21,8 @@ pub(super) struct Memory {
     pub(super) pilot: Vec<Exact>,
     pub(super) commands: [Exact; 4],
     pub(super) wind: [Exact; 3],
-    pub(super) air: [Exact; 5],
+    pub(super) air_rates: [Exact; 3],
+    pub(super) air: [Exact; MEMORY],
     pub(super) charge_drawn: Exact,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) estimating: Option<EstimatingMemory>,
@@ -46,6 +48,7 @@ impl Quadrotor {
             pilot: exact(&self.setup.pilot.memory()),
             commands: self.input.commands.map(Exact),
             wind: <[f64; 3]>::from(self.input.wind).map(Exact),
+            air_rates: <[f64; 3]>::from(self.input.air_rates).map(Exact),
             air: self.air.memory().map(Exact),
             charge_drawn: Exact(self.charge_drawn),
             estimating: self.estimating.as_ref().map(|e| e.memory()),

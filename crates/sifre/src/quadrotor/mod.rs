@@ -15,15 +15,18 @@
 
 mod air;
 mod estimation;
+mod gusts;
 mod hover;
+mod initial_error;
 mod memory;
 mod pilot;
 mod record;
 mod rule;
 mod setup;
 
-pub use air::{AirError, ProcessNoiseSource, STRONGEST_WIND_M_S, Turbulence, Wind};
+pub use air::{AirError, Gusts, ProcessNoiseSource, STRONGEST_WIND_M_S, Turbulence, Wind};
 pub use estimation::{EstimateUse, Estimation, EstimationSetupError, FilterKind};
+pub use initial_error::{InitialError, InitialErrorFault, VectorError};
 pub use pilot::{OpenLoop, Pilot};
 pub use rule::{LevelRule, RuleError};
 pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};
@@ -33,8 +36,8 @@ use crate::black_box::Channel;
 use crate::error::BindError;
 use crate::event::AgentEvent;
 use crate::exact::plain;
-use air::Air;
 use estimation::Estimating;
+use gusts::{Air, Met};
 use hover::{hover_draw, model, set_moving};
 use memory::Restored;
 use nalgebra::Vector3;
@@ -49,9 +52,9 @@ pub struct Quadrotor {
     setup: Setup,
     quadrotor: AnyQuadrotor<f64>,
     reference: Reference<f64>,
-    /// Commands at the rotors, disturbance included, and wind.
+    /// Commands at the rotors, disturbance included, and the air.
     input: Input<f64>,
-    /// Wind and gusts about it.
+    /// Gusts about it.
     air: Air,
     /// Sensors and filter.
     estimating: Option<Box<Estimating>>,
@@ -104,7 +107,7 @@ impl Quadrotor {
             reference: Reference::hold(setup.position(), setup.start.yaw_rad),
             input: quadrotor.hover_input(),
             quadrotor,
-            air: Air::new(&setup.script.wind),
+            air: Air::new(&setup.script.wind, &setup.vehicle, -setup.start.position_m[2]),
             estimating: estimating.transpose()?,
             charge_drawn: 0.0,
             hover_draw,
@@ -137,7 +140,7 @@ impl Quadrotor {
         &self.quadrotor
     }
 
-    /// Commands at the rotors and wind, from its latest instant on.
+    /// Commands at the rotors and the air, from its latest instant on.
     pub fn input(&self) -> &Input<f64> {
         &self.input
     }
@@ -197,22 +200,28 @@ impl Quadrotor {
         }
     }
 
-    /// Velocity of the air in W, m/s.
+    /// The air that its model meets.
     #[inline]
-    fn wind(&self, now: &Moment<'_>) -> Vector3<f64> {
+    fn met(&self, now: &Moment<'_>) -> Met {
         if self.is_still {
-            return Vector3::zeros();
+            return Met::steady(Vector3::zeros());
         }
         self.moving_air(now)
     }
 
-    fn moving_air(&self, now: &Moment<'_>) -> Vector3<f64> {
+    fn moving_air(&self, now: &Moment<'_>) -> Met {
         let (mean, wind) = (self.mean_wind(now), &self.setup.script.wind);
         if wind.shear.is_none() && wind.turbulence.is_none() {
-            return mean;
+            return Met::steady(mean);
         }
         let on = self.quadrotor.phenomena();
-        self.air.velocity(wind, mean, &self.quadrotor.flight(), on)
+        self.air.met(wind, mean, &self.quadrotor.flight(), on)
+    }
+
+    /// Whether its gusts turn the air.
+    fn air_turns(&self) -> bool {
+        let turbulence = self.setup.script.wind.turbulence;
+        turbulence.is_some_and(|t| t.gusts == Gusts::All)
     }
 
     /// Mean wind at the reference height in W, m/s.
@@ -333,7 +342,8 @@ impl Agent for Quadrotor {
         // There is room for one event; that which ends the run goes first.
         let event = self.estimate(now).or(event);
         self.reference = self.setup.guidance.reference(now);
-        self.input.wind = self.wind(now);
+        let met = self.met(now);
+        (self.input.wind, self.input.air_rates) = (met.velocity, met.rates);
         self.input.commands = self.piloted(now);
         if let Some(offset) = self.setup.script.command_offset.at(now.time_ns) {
             self.input.commands = std::array::from_fn(|i| self.input.commands[i] + offset[i]);
@@ -363,7 +373,7 @@ impl Agent for Quadrotor {
             return event;
         }
         let event = self.follow_script(now);
-        self.input.wind = self.wind(now);
+        self.input.wind = self.met(now).velocity;
         let Setup { guidance, pilot, .. } = &mut self.setup;
         let reference = guidance.show(now, &mut self.reference);
         self.input.commands = pilot.fly(&mut self.quadrotor, reference, &self.input.wind, now);
@@ -372,7 +382,7 @@ impl Agent for Quadrotor {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        record::channels(self.estimating.is_some())
+        record::channels(self.air_turns(), self.estimating.is_some())
     }
 
     fn record(&self, row: &mut [f64]) {
@@ -393,10 +403,11 @@ impl Agent for Quadrotor {
         self.estimating = estimating;
         self.quadrotor = quadrotor;
         self.entry = memory.entry;
-        self.air = Air::remembered(memory.air.map(|x| x.0));
+        self.air.recall(memory.air.map(|x| x.0));
         self.charge_drawn = memory.charge_drawn.0;
         self.input.commands = memory.commands.map(|u| u.0);
         self.input.wind = Vector3::from(memory.wind.map(|w| w.0));
+        self.input.air_rates = Vector3::from(memory.air_rates.map(|w| w.0));
         Ok(())
     }
 }

@@ -32,8 +32,7 @@ pub trait Pilot: Debug + Send {
         now: &Moment<'_>,
     ) -> [f64; 4] {
         let commands = self.commands(quadrotor, reference, now);
-        let wind = *wind;
-        quadrotor.step(FixedStep::Rk4, &Input { commands, wind }, now.step_s);
+        quadrotor.step(FixedStep::Rk4, &Input::in_wind(commands, *wind), now.step_s);
         commands
     }
 

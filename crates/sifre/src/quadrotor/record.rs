@@ -5,7 +5,7 @@ use crate::black_box::{Channel, Frame, Role};
 use nalgebra::Vector3;
 
 /// Its channels, in the order of [`write`].
-pub(super) fn channels(is_estimated: bool) -> Vec<Channel> {
+pub(super) fn channels(air_turns: bool, is_estimated: bool) -> Vec<Channel> {
     let (xyz, rotors) = (["x", "y", "z"], ["1", "2", "3", "4"]);
     let mut all = Vec::new();
     all.extend(Channel::group("position", xyz, Role::State, "m", Frame::World));
@@ -30,6 +30,15 @@ pub(super) fn channels(is_estimated: bool) -> Vec<Channel> {
     all.extend(Channel::group("thrust", rotors, Role::Output, "N", Frame::Scalar));
     all.extend(Channel::group("command", rotors, Role::Input, "1", Frame::Scalar));
     all.extend(Channel::group("wind", xyz, Role::Input, "m/s", Frame::World));
+    if air_turns {
+        all.extend(Channel::group(
+            "air_rate",
+            xyz,
+            Role::Input,
+            "rad/s",
+            Frame::World,
+        ));
+    }
     all.extend(Channel::group(
         "reference.position",
         xyz,
@@ -89,6 +98,9 @@ pub(super) fn write(of: &Quadrotor, row: &mut [f64]) {
     put(&snapshot.rotors.map(|rotor| rotor.output.thrust));
     put(&of.input.commands);
     put(&vector(&of.input.wind));
+    if of.air_turns() {
+        put(&vector(&of.input.air_rates));
+    }
     put(&vector(&flat.position));
     put(&vector(&flat.velocity));
     put(&[flat.yaw]);

@@ -4,13 +4,13 @@ use crate::support::{c3, ms, run_recorded, vehicle};
 use quad_dynamics::{Level, Phenomenon, Shear, ShearProfile};
 use quad_ndi::Reference;
 use sifre::quadrotor::{
-    AirError, LevelChoice, ProcessNoiseSource, QuadrotorError, Script, Setup, Start, Turbulence, Wind,
+    AirError, Gusts, LevelChoice, ProcessNoiseSource, QuadrotorError, Script, Setup, Start, Turbulence, Wind,
 };
 use sifre::{Member, Quadrotor, Schedule, Simulation};
 
 const HEIGHT_M: f64 = 5.0;
 
-fn setup(choice: LevelChoice, script: Script) -> Setup {
+pub(crate) fn setup(choice: LevelChoice, script: Script) -> Setup {
     let vehicle = vehicle();
     let at = [0.0, 0.0, -HEIGHT_M];
     let start = Start {
@@ -39,8 +39,12 @@ fn refused(choice: impl Into<LevelChoice>, script: Script) -> QuadrotorError {
     Quadrotor::new(setup(choice.into(), script)).unwrap_err()
 }
 
-fn turbulent(seed: u64) -> Script {
-    let turbulence = Some(Turbulence { w20_m_s: 8.0, seed });
+pub(crate) fn turbulent(seed: u64) -> Script {
+    let turbulence = Some(Turbulence {
+        w20_m_s: 8.0,
+        seed,
+        gusts: Gusts::All,
+    });
     Script {
         wind: Wind {
             constant_m_s: [3.0, -4.0, 0.0],
@@ -231,6 +235,7 @@ fn exact_impossible_air_is_refused() {
             turbulence: Some(Turbulence {
                 w20_m_s: 1000.0,
                 seed: 0,
+                gusts: Gusts::All,
             }),
             ..Wind::default()
         }),
@@ -238,6 +243,7 @@ fn exact_impossible_air_is_refused() {
             turbulence: Some(Turbulence {
                 w20_m_s: -1.0,
                 seed: 0,
+                gusts: Gusts::All,
             }),
             ..Wind::default()
         }),

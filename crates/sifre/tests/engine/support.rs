@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{AnyController, C1, C3, Pid, PidGains, PidSettings, Reference, Settings};
 use sifre::black_box::MemoryBox;
-use sifre::quadrotor::{LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
+use sifre::quadrotor::{Gusts, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
 use sifre::{
     Ets, EtsSetup, Facing, Follow, Member, Path, Quadrotor, Recording, RunReport, Schedule, Simulation,
     StepSize, Target,
@@ -120,7 +120,11 @@ impl Plan {
         let seed = i as u64;
         let script = Script {
             wind: Wind {
-                turbulence: all_have_drag.then_some(Turbulence { w20_m_s: 8.0, seed }),
+                turbulence: all_have_drag.then_some(Turbulence {
+                    w20_m_s: 8.0,
+                    seed,
+                    gusts: Gusts::All,
+                }),
                 ..Wind::default()
             },
             process_noise: Some(ProcessNoiseSource {
