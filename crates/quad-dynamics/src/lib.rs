@@ -96,6 +96,7 @@ mod quadrotor;
 mod quadrotor_state;
 mod resolution;
 mod rigid_body;
+pub mod sensitivity;
 mod shear;
 #[cfg(test)]
 mod tests;
@@ -122,7 +123,7 @@ pub use quadrotor_state::{QuadrotorRate, QuadrotorState};
 pub use resolution::{Feature, Resolution};
 pub use rigid_body::{RigidBody, RigidBodyRate, RigidBodyState, Wrench};
 pub use shear::{Shear, ShearError, ShearProfile};
-pub use vehicle::{Vehicle, VehicleError};
+pub use vehicle::{UncertainVehicle, Vehicle, VehicleError};
 
 /// The README's example is tested with the documentation.
 #[cfg(doctest)]

@@ -16,6 +16,7 @@ pub mod file;
 mod limits;
 #[cfg(test)]
 mod tests;
+pub mod uncertain;
 mod validate;
 
 use nalgebra::{Matrix3, Vector3};
@@ -23,6 +24,7 @@ use serde::{Deserialize, Serialize};
 
 pub use error::VehicleError;
 pub use file::{Sourced, VehicleFile};
+pub use uncertain::UncertainVehicle;
 
 /// Sense of rotation of a rotor, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
