@@ -49,7 +49,9 @@ impl Vehicle {
         let pwm = self.pwm;
         (pwm.minimum - pwm.zero_thrust)..=(pwm.maximum - pwm.zero_thrust)
     }
+}
 
+impl<R> Vehicle<R> {
     /// Transfer functions of the empirical rotor.
     ///
     /// # Errors
@@ -57,7 +59,7 @@ impl Vehicle {
     pub fn require_rotor_dynamics(
         &self,
         needed_by: &'static str,
-    ) -> Result<&RotorDynamicsParameters, VehicleError> {
+    ) -> Result<&RotorDynamicsParameters<R>, VehicleError> {
         self.require(&self.rotor_dynamics, "rotor_dynamics", needed_by)
     }
 
@@ -68,7 +70,7 @@ impl Vehicle {
     pub fn require_polynomial_rotor(
         &self,
         needed_by: &'static str,
-    ) -> Result<&PolynomialRotorParameters, VehicleError> {
+    ) -> Result<&PolynomialRotorParameters<R>, VehicleError> {
         self.require(&self.polynomial_rotor, "polynomial_rotor", needed_by)
     }
 
@@ -76,7 +78,10 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_propeller(&self, needed_by: &'static str) -> Result<&PropellerParameters, VehicleError> {
+    pub fn require_propeller(
+        &self,
+        needed_by: &'static str,
+    ) -> Result<&PropellerParameters<R>, VehicleError> {
         self.require(&self.propeller, "propeller", needed_by)
     }
 
@@ -84,7 +89,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_motor(&self, needed_by: &'static str) -> Result<&MotorParameters, VehicleError> {
+    pub fn require_motor(&self, needed_by: &'static str) -> Result<&MotorParameters<R>, VehicleError> {
         self.require(&self.motor, "motor", needed_by)
     }
 
@@ -92,7 +97,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_battery(&self, needed_by: &'static str) -> Result<&BatteryParameters, VehicleError> {
+    pub fn require_battery(&self, needed_by: &'static str) -> Result<&BatteryParameters<R>, VehicleError> {
         self.require(&self.battery, "battery", needed_by)
     }
 
@@ -100,7 +105,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_drag(&self, needed_by: &'static str) -> Result<&DragParameters, VehicleError> {
+    pub fn require_drag(&self, needed_by: &'static str) -> Result<&DragParameters<R>, VehicleError> {
         self.require(&self.drag, "drag", needed_by)
     }
 
@@ -108,7 +113,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_arms(&self, needed_by: &'static str) -> Result<&ArmParameters, VehicleError> {
+    pub fn require_arms(&self, needed_by: &'static str) -> Result<&ArmParameters<R>, VehicleError> {
         self.require(&self.arms, "arms", needed_by)
     }
 
