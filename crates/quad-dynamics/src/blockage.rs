@@ -41,15 +41,20 @@ impl<R: Real> Blockage<R> {
     /// # Errors
     /// If the vehicle has no propeller or no arms.
     pub fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+        Self::with(&vehicle.map(constant))
+    }
+
+    pub(crate) fn with(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let needed_by = "the phenomenon blockage";
         let arms = vehicle.require_arms(needed_by)?;
-        let radius = vehicle.require_propeller(needed_by)?.diameter / 2.0;
+        let radius = vehicle.require_propeller(needed_by)?.diameter / constant(2.0);
         let density = vehicle.environment.air_density;
-        let disc = std::f64::consts::PI * radius * radius;
+        let disc = R::simd_pi() * radius * radius;
+        let half: R = constant(0.5);
         Ok(Self {
-            drag: constant(0.5 * density * arms.drag_coefficient * arms.width * radius),
-            induced: constant(0.5 / (density * disc)),
-            acceleration: constant(1.0 + arms.drop / arms.drop.hypot(radius)),
+            drag: half * density * arms.drag_coefficient * arms.width * radius,
+            induced: half / (density * disc),
+            acceleration: R::one() + arms.drop / arms.drop.simd_hypot(radius),
         })
     }
 

@@ -8,7 +8,7 @@ use crate::{
     Blockage, BuildError, Capabilities, Drag, GroundEffect, Input, Level, ModelName, Phenomenon,
     PhenomenonSet, QuadrotorState, RigidBody, RigidBodyState, RotorGeometry,
 };
-use nalgebra::{Matrix4, Vector3, Vector4};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 use quad_math::{Real, constant};
 use quad_rotor::{
     Battery, BatteryState, ConstantVoltage, IdealRotor, RotorInput, RotorModel, SpinUp, Supply,
@@ -40,13 +40,13 @@ pub trait FamilyRotor<R: Real>: RotorModel<R> {
     ///
     /// # Errors
     /// If the vehicle lacks a group of parameters.
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError>;
+    fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError>;
 
     /// The supply of a vehicle, with or without voltage sag.
     ///
     /// # Errors
     /// If the vehicle lacks a group of parameters.
-    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Self::Supply, BuildError>;
+    fn supply(vehicle: &Vehicle<R>, sag: bool) -> Result<Self::Supply, BuildError>;
 
     /// The rotor thrusts, N, where the model has them as its only states.
     #[inline(always)]
@@ -87,17 +87,23 @@ impl<R: Real> FamilySupply<R> for ConstantVoltage<R> {
 impl<R: Real> RigidBody<R> {
     /// The rigid body of a vehicle.
     pub fn of(vehicle: &Vehicle) -> Self {
-        let airframe = &vehicle.airframe;
+        Self::with(vehicle, &vehicle.map(constant))
+    }
+
+    /// The rigid body of a vehicle, its numbers given over this scalar too.
+    pub(crate) fn with(vehicle: &Vehicle, parameters: &Vehicle<R>) -> Self {
+        let nominal = vehicle.airframe.inertia;
         // A validated vehicle has a positive definite inertia; an unvalidated one gets NaN, not a panic.
-        let inverse = airframe
-            .inertia
-            .try_inverse()
-            .unwrap_or_else(|| airframe.inertia.map(|_| f64::NAN));
+        let inverse = nominal.try_inverse().unwrap_or_else(|| nominal.map(|_| f64::NAN));
+        let inverse: Matrix3<R> = inverse.map(constant);
+        let airframe = &parameters.airframe;
+        // d(I⁻¹) = −I⁻¹ dI I⁻¹: the difference has the value zero, and the derivatives of the inertia.
+        let difference = airframe.inertia - nominal.map(constant::<R>);
         Self {
-            mass: constant(airframe.mass),
-            inertia: airframe.inertia.map(constant),
-            inertia_inverse: inverse.map(constant),
-            gravity: constant(vehicle.environment.gravity),
+            mass: airframe.mass,
+            inertia: airframe.inertia,
+            inertia_inverse: inverse - inverse * difference * inverse,
+            gravity: parameters.environment.gravity,
         }
     }
 }
@@ -105,13 +111,16 @@ impl<R: Real> RigidBody<R> {
 impl<R: Real> RotorGeometry<R> {
     /// Where the rotors of a vehicle sit, relative to its centre of mass.
     pub fn of(vehicle: &Vehicle) -> Self {
-        let rotor = |f: fn(&crate::vehicle::RotorMount) -> f64| {
-            std::array::from_fn(|i| constant(f(&vehicle.rotors[i])))
-        };
+        Self::with(&vehicle.map(constant))
+    }
+
+    pub(crate) fn with(vehicle: &Vehicle<R>) -> Self {
+        let rotor =
+            |f: fn(&crate::vehicle::RotorMount<R>) -> R| std::array::from_fn(|i| f(&vehicle.rotors[i]));
         Self {
             forward: rotor(|r| r.position.x),
             right: rotor(|r| r.position.y),
-            spin: rotor(|r| r.spin.sign()),
+            spin: rotor(|r| constant(r.spin.sign())),
         }
     }
 }
@@ -119,20 +128,24 @@ impl<R: Real> RotorGeometry<R> {
 impl<R: Real> CommandLimits<R> {
     /// The limits of a vehicle's zeroed commands.
     pub fn of(vehicle: &Vehicle) -> Self {
-        let range = vehicle.zeroed_range();
+        Self::with(&vehicle.map(constant))
+    }
+
+    pub(crate) fn with(vehicle: &Vehicle<R>) -> Self {
+        let pwm = &vehicle.pwm;
         Self {
-            minimum: constant(*range.start()),
-            maximum: constant(*range.end()),
+            minimum: pwm.minimum - pwm.zero_thrust,
+            maximum: pwm.maximum - pwm.zero_thrust,
         }
     }
 }
 
 impl<R: Real> RotorSet<R, IdealRotor<R>, ConstantVoltage<R>> {
     /// Ideal rotors, as levels 1 and 2 have them.
-    pub(crate) fn linear(vehicle: &Vehicle, limits: Option<CommandLimits<R>>) -> Self {
+    pub(crate) fn linear(vehicle: &Vehicle<R>, limits: Option<CommandLimits<R>>) -> Self {
         Self {
             rotors: [ideal(vehicle); 4],
-            geometry: RotorGeometry::of(vehicle),
+            geometry: RotorGeometry::with(vehicle),
             supply: stiff(vehicle),
             limits,
             current_draw: None,
@@ -277,6 +290,7 @@ fn capabilities<R: Real, M: FamilyRotor<R>>() -> Capabilities {
 
 pub(crate) fn quadrotor<R, M, S>(
     vehicle: &Vehicle,
+    parameters: &Vehicle<R>,
     phenomena: &PhenomenonSet,
 ) -> Result<Quadrotor<R, M, S>, BuildError>
 where
@@ -294,15 +308,15 @@ where
     let lift = vehicle.weight() / (1.0 - blockage.map_or(0.0, |b| b.share_in_hover()));
     let hover = trimmed.hover_commands(vehicle, model, has(Phenomenon::InputLimits), lift)?;
     Ok(Quadrotor {
-        body: RigidBody::of(vehicle),
-        rotor_set: rotor_set::<R, M>(vehicle, phenomena)?,
-        drag: has(Phenomenon::Drag).then(|| drag(vehicle)).transpose()?,
-        spinning: spinning(vehicle, phenomena)?,
+        body: RigidBody::with(vehicle, parameters),
+        rotor_set: rotor_set::<R, M>(parameters, phenomena)?,
+        drag: has(Phenomenon::Drag).then(|| drag(parameters)).transpose()?,
+        spinning: spinning(parameters, phenomena)?,
         ground_effect: has(Phenomenon::GroundEffect)
-            .then(|| GroundEffect::of(vehicle))
+            .then(|| GroundEffect::with(parameters))
             .transpose()?,
         blockage: has(Phenomenon::Blockage)
-            .then(|| Blockage::of(vehicle))
+            .then(|| Blockage::with(parameters))
             .transpose()?,
         phenomena: phenomena.clone(),
         hover_commands: hover.map(constant),
@@ -310,31 +324,31 @@ where
 }
 
 fn rotor_set<R: Real, M: FamilyRotor<R>>(
-    vehicle: &Vehicle,
+    vehicle: &Vehicle<R>,
     phenomena: &PhenomenonSet,
 ) -> Result<RotorSet<R, M, M::Supply>, BuildError> {
     let sag = phenomena.contains(Phenomenon::VoltageSag);
     Ok(RotorSet {
         rotors: [M::of(vehicle)?; 4],
-        geometry: RotorGeometry::of(vehicle),
+        geometry: RotorGeometry::with(vehicle),
         supply: M::supply(vehicle, sag)?,
         limits: phenomena
             .contains(Phenomenon::InputLimits)
-            .then(|| CommandLimits::of(vehicle)),
+            .then(|| CommandLimits::with(vehicle)),
         current_draw: sag.then(|| current_draw(vehicle)).transpose()?,
     })
 }
 
-fn drag<R: Real>(vehicle: &Vehicle) -> Result<Drag<R>, BuildError> {
+fn drag<R: Real>(vehicle: &Vehicle<R>) -> Result<Drag<R>, BuildError> {
     let drag = vehicle.require_drag("the phenomenon drag")?;
     Ok(Drag {
-        quadratic: drag.quadratic.map(constant),
-        rate_damping: drag.rate_damping.map(constant),
+        quadratic: drag.quadratic,
+        rate_damping: drag.rate_damping,
     })
 }
 
 fn spinning<R: Real>(
-    vehicle: &Vehicle,
+    vehicle: &Vehicle<R>,
     phenomena: &PhenomenonSet,
 ) -> Result<Option<SpinningRotors<R>>, BuildError> {
     let gyroscopic_torque = phenomena.contains(Phenomenon::GyroscopicTorque);
@@ -345,18 +359,18 @@ fn spinning<R: Real>(
     let needed_by = "gyroscopic torque or spin-up reaction";
     Ok(Some(SpinningRotors {
         propeller: propeller(vehicle, needed_by)?,
-        inertia: constant(vehicle.require_motor(needed_by)?.rotor_inertia),
+        inertia: vehicle.require_motor(needed_by)?.rotor_inertia,
         gyroscopic_torque,
         spin_up_reaction,
     }))
 }
 
-fn current_draw<R: Real>(vehicle: &Vehicle) -> Result<CurrentDraw<R>, BuildError> {
+fn current_draw<R: Real>(vehicle: &Vehicle<R>) -> Result<CurrentDraw<R>, BuildError> {
     let motor = vehicle.require_motor("the phenomenon voltage-sag")?;
     Ok(CurrentDraw {
-        velocity_constant: constant(motor.velocity_constant),
-        no_load_current: constant(motor.no_load_current),
-        full_voltage_duty: constant(motor.full_voltage_duty),
+        velocity_constant: motor.velocity_constant,
+        no_load_current: motor.no_load_current,
+        full_voltage_duty: motor.full_voltage_duty,
         zero_thrust_offset: zero_thrust_offset(vehicle),
     })
 }

@@ -35,10 +35,14 @@ impl<R: Real> GroundEffect<R> {
     /// # Errors
     /// If the vehicle has no propeller.
     pub fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+        Self::with(&vehicle.map(constant))
+    }
+
+    pub(crate) fn with(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let propeller = vehicle.require_propeller("the phenomenon ground-effect")?;
         Ok(Self {
-            radius: constant(propeller.diameter / 2.0),
-            hubs: std::array::from_fn(|i| vehicle.rotors[i].position.map(constant)),
+            radius: propeller.diameter / constant(2.0),
+            hubs: std::array::from_fn(|i| vehicle.rotors[i].position),
         })
     }
 

@@ -115,11 +115,15 @@ impl<R: Real> System<R> for Level1<R> {
 impl<R: Real> QuadrotorModel<R> for Level1<R> {
     const LEVEL: Option<Level> = Some(Level::One);
 
-    fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError> {
+    fn build_with(
+        vehicle: &Vehicle,
+        parameters: &Vehicle<R>,
+        phenomena: &PhenomenonSet,
+    ) -> Result<Self, BuildError> {
         BuildError::check_phenomena(ModelName(Self::LEVEL), phenomena, Capabilities::of(Level::One))?;
         let limits = phenomena
             .contains(Phenomenon::InputLimits)
-            .then(|| CommandLimits::of(vehicle));
+            .then(|| CommandLimits::with(parameters));
         let parts = RotorSet::<f64, IdealRotor<f64>, ConstantVoltage<f64>>::linear(vehicle, None);
         let hover = parts.hover_commands(
             vehicle,
@@ -128,8 +132,8 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
             vehicle.weight(),
         )?;
         Ok(Self {
-            body: RigidBody::of(vehicle),
-            rotor_set: RotorSet::<R, IdealRotor<R>, ConstantVoltage<R>>::linear(vehicle, limits),
+            body: RigidBody::with(vehicle, parameters),
+            rotor_set: RotorSet::<R, IdealRotor<R>, ConstantVoltage<R>>::linear(parameters, limits),
             phenomena: phenomena.clone(),
             hover_commands: hover.map(quad_math::constant),
         })

@@ -61,6 +61,7 @@
 //! | process noise `Δv = σ √h n` | [`ProcessNoise`] | 3.7; Gelb 1974 |
 //! | resolution, its partial order | [`Resolution`] | 5.1.4 |
 //! | shares of a difference between levels | [`Parts::attribute`] | Shapley 1953 |
+//! | what standard errors make of a result, `σ_y² = Σ (∂y/∂p_k σ_k)²` | [`sensitivity`], [`UncertainVehicle`] | JCGM 100:2008 |
 //! | rotors | [`quad_rotor`], one type per model | 3.5, 4.5 |
 //! | battery current `Σ d_i (K_v Q_i + I_0)` | [`CurrentDraw`] | choice |
 //! | hover trim | [`QuadrotorModel::hover`], solved in `build.rs` | |
@@ -97,6 +98,7 @@ mod quadrotor;
 mod quadrotor_state;
 mod resolution;
 mod rigid_body;
+pub mod sensitivity;
 mod shear;
 #[cfg(test)]
 mod tests;
@@ -125,7 +127,7 @@ pub use quadrotor_state::{QuadrotorRate, QuadrotorState};
 pub use resolution::{Feature, Resolution};
 pub use rigid_body::{RigidBody, RigidBodyRate, RigidBodyState, Wrench};
 pub use shear::{Shear, ShearError, ShearProfile};
-pub use vehicle::{Vehicle, VehicleError};
+pub use vehicle::{UncertainVehicle, Vehicle, VehicleError};
 
 /// The README's example is tested with the documentation.
 #[cfg(doctest)]

@@ -179,7 +179,20 @@ pub trait QuadrotorModel<R: Real>:
     /// # Errors
     /// If the vehicle lacks a group of parameters that the model needs, if a phenomenon's prerequisite
     /// is not met, or if the vehicle can't hover.
-    fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError>;
+    fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError> {
+        Self::build_with(vehicle, &vehicle.map(quad_math::constant), phenomena)
+    }
+
+    /// As [`QuadrotorModel::build`], with the vehicle's numbers over the model's scalar: the same ones, with derivatives
+    /// ([`crate::sensitivity::differentiable`]). The commands of hover are those of `vehicle`, constants.
+    ///
+    /// # Errors
+    /// As [`QuadrotorModel::build`].
+    fn build_with(
+        vehicle: &Vehicle,
+        parameters: &Vehicle<R>,
+        phenomena: &PhenomenonSet,
+    ) -> Result<Self, BuildError>;
 
     /// What can be seen of the flight.
     fn flight(&self, state: &Self::State) -> Flight<R>;

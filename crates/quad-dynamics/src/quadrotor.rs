@@ -323,8 +323,12 @@ where
 {
     const LEVEL: Option<Level> = M::LEVEL;
 
-    fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError> {
-        crate::build::quadrotor(vehicle, phenomena)
+    fn build_with(
+        vehicle: &Vehicle,
+        parameters: &Vehicle<R>,
+        phenomena: &PhenomenonSet,
+    ) -> Result<Self, BuildError> {
+        crate::build::quadrotor(vehicle, parameters, phenomena)
     }
 
     #[inline(always)]

@@ -1,9 +1,11 @@
 //! Vehicles and stations by name, or from files that somebody else reads.
 
 use crate::error::ScenarioError;
+use crate::file::QuadrotorFile;
 use ets::Station;
-use quad_dynamics::Vehicle;
+use quad_dynamics::vehicle::VehicleFile;
 use quad_dynamics::vehicle::builtin::{CRAZYFLIE_TOML, QBALL_X4_TOML, QBALL_X4_VENDOR_TOML};
+use quad_dynamics::{Vehicle, VehicleError};
 use std::collections::BTreeMap;
 use toml::{Table, Value};
 
@@ -72,20 +74,55 @@ pub(crate) fn vehicle(
     parameters: &Table,
     files: &dyn Files,
 ) -> Result<Vehicle, ScenarioError> {
+    let SoundFile { file, origin } = vehicle_file(agent, wanted, parameters, files)?;
+    Vehicle::from_file(&file, &origin).map_err(|source| refused(agent, source))
+}
+
+/// A vehicle file that has been read, and its name in messages.
+pub(crate) struct SoundFile {
+    pub(crate) file: VehicleFile,
+    pub(crate) origin: String,
+}
+
+/// The vehicle file of an agent, with these parameters other than in the file as it is.
+pub(crate) fn vehicle_file(
+    agent: &str,
+    wanted: &str,
+    parameters: &Table,
+    files: &dyn Files,
+) -> Result<SoundFile, ScenarioError> {
     let mut text = text(agent, "vehicle", wanted, &VEHICLES, files)?;
-    let refuse = |source| ScenarioError::Vehicle {
-        agent: agent.to_owned(),
-        source: Box::new(source),
+    let read = |text: &str, origin: String| {
+        let file = VehicleFile::from_toml_str(text, &origin).map_err(|source| refused(agent, source))?;
+        Ok(SoundFile { file, origin })
     };
     if parameters.is_empty() {
-        return Vehicle::from_toml_str(&text, wanted).map_err(refuse);
+        return read(&text, wanted.to_owned());
     }
     // The file as it is must be sound first, so that an error in it is told with its line.
-    Vehicle::from_toml_str(&text, wanted).map_err(refuse)?;
+    Vehicle::from_toml_str(&text, wanted).map_err(|source| refused(agent, source))?;
     let mut file: Table = toml::from_str(&text).unwrap_or_default();
     change(agent, &mut file, parameters, "")?;
     text = toml::to_string(&file).unwrap_or(text);
-    Vehicle::from_toml_str(&text, &format!("{wanted} with the scenario's parameters")).map_err(refuse)
+    read(&text, format!("{wanted} with the scenario's parameters"))
+}
+
+fn refused(agent: &str, source: VehicleError) -> ScenarioError {
+    ScenarioError::Vehicle {
+        agent: agent.to_owned(),
+        source: Box::new(source),
+    }
+}
+
+impl QuadrotorFile {
+    /// The vehicle that this quadrotor flies, as a file with sources and standard errors; the scenario's own parameters,
+    /// which have no standard errors, stand in the place of the file's.
+    ///
+    /// # Errors
+    /// If the vehicle isn't there, its file is wrong, or it doesn't have one of the parameters.
+    pub fn vehicle_file(&self, files: &dyn Files) -> Result<VehicleFile, ScenarioError> {
+        vehicle_file(&self.name, &self.vehicle, &self.parameters, files).map(|sound| sound.file)
+    }
 }
 
 /// Takes over parameters into a vehicle file: numbers take the place of values, tables are gone into.

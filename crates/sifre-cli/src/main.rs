@@ -19,6 +19,7 @@ mod run;
 mod schema;
 mod select_level;
 mod sweep;
+mod uncertainty;
 mod varied;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -62,6 +63,8 @@ enum What {
     Optimise(optimise::Arguments),
     /// Fly a scenario many times with keys varied, on a grid or at random; an interrupted sweep goes on where it was.
     Sweep(sweep::Arguments),
+    /// What a flight's numbers are worth: the standard errors of the vehicle's file carried to every metric.
+    Uncertainty(uncertainty::Arguments),
     /// Draw a recording.
     Plot(plot::Arguments),
     /// Draw a flight as a page that moves, for a browser.
@@ -88,6 +91,7 @@ fn main() -> ExitCode {
         What::Attribute(arguments) => attribute::run(&arguments, json),
         What::Optimise(arguments) => optimise::run(&arguments, json),
         What::Sweep(arguments) => sweep::run(&arguments, json),
+        What::Uncertainty(arguments) => uncertainty::run(&arguments, json),
         What::Plot(arguments) => plot::run(&arguments, json),
         What::Animate(arguments) => animate::run(&arguments, json),
         What::New(arguments) => new::run(&arguments, json),

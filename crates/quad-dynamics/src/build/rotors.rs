@@ -3,86 +3,86 @@
 use super::FamilyRotor;
 use crate::vehicle::Vehicle;
 use crate::{BuildError, Level};
-use quad_math::{Real, constant};
+use quad_math::Real;
 use quad_rotor::{
     Battery, ConstantVoltage, Cubic, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor, Motor,
     NonLinearRotor, Propeller, RotorDynamics, Sag, ThrustState,
 };
 
-pub(super) fn zero_thrust_offset<R: Real>(vehicle: &Vehicle) -> R {
-    constant(vehicle.pwm.zero_thrust - vehicle.pwm.minimum)
+pub(super) fn zero_thrust_offset<R: Real>(vehicle: &Vehicle<R>) -> R {
+    vehicle.pwm.zero_thrust - vehicle.pwm.minimum
 }
 
 pub(super) fn propeller<R: Real>(
-    vehicle: &Vehicle,
+    vehicle: &Vehicle<R>,
     needed_by: &'static str,
 ) -> Result<Propeller<R>, BuildError> {
     let p = vehicle.require_propeller(needed_by)?;
     Ok(Propeller::from_coefficients(
-        constant(p.thrust_coefficient),
-        constant(p.torque_coefficient),
-        constant(p.diameter),
-        constant(vehicle.environment.air_density),
+        p.thrust_coefficient,
+        p.torque_coefficient,
+        p.diameter,
+        vehicle.environment.air_density,
     ))
 }
 
-pub(super) fn ideal<R: Real>(vehicle: &Vehicle) -> IdealRotor<R> {
+pub(super) fn ideal<R: Real>(vehicle: &Vehicle<R>) -> IdealRotor<R> {
     let gains = &vehicle.linear_rotor;
     IdealRotor {
-        thrust_gain: constant(gains.thrust_gain),
-        torque_gain: constant(gains.torque_gain),
+        thrust_gain: gains.thrust_gain,
+        torque_gain: gains.torque_gain,
     }
 }
 
 /// The constant supply of levels 1 to 4, whose rotors don't look at the voltage: nominal, or 1 V where
 /// the vehicle names no battery.
-pub(super) fn stiff<R: Real>(vehicle: &Vehicle) -> ConstantVoltage<R> {
+pub(super) fn stiff<R: Real>(vehicle: &Vehicle<R>) -> ConstantVoltage<R> {
     ConstantVoltage {
-        voltage: constant(vehicle.battery.as_ref().map_or(1.0, |b| b.nominal_voltage)),
+        voltage: vehicle.battery.as_ref().map_or(R::one(), |b| b.nominal_voltage),
     }
 }
 
-fn battery<R: Real>(vehicle: &Vehicle, sag: bool, needed_by: &'static str) -> Result<Battery<R>, BuildError> {
+fn battery<R: Real>(
+    vehicle: &Vehicle<R>,
+    sag: bool,
+    needed_by: &'static str,
+) -> Result<Battery<R>, BuildError> {
     let b = vehicle.require_battery(needed_by)?;
-    let sag = sag.then(|| Sag {
-        full_voltage: constant(b.full_voltage),
-        internal_resistance: constant(b.internal_resistance),
-        exponential_amplitude: constant(b.exponential_amplitude),
-        exponential_rate: constant(b.exponential_rate),
+    let sag = sag.then_some(Sag {
+        full_voltage: b.full_voltage,
+        internal_resistance: b.internal_resistance,
+        exponential_amplitude: b.exponential_amplitude,
+        exponential_rate: b.exponential_rate,
     });
     Ok(Battery {
-        nominal_voltage: constant(b.nominal_voltage),
+        nominal_voltage: b.nominal_voltage,
         sag,
     })
 }
 
-fn dynamics<R: Real>(vehicle: &Vehicle, needed_by: &'static str) -> Result<RotorDynamics<R>, BuildError> {
+fn dynamics<R: Real>(vehicle: &Vehicle<R>, needed_by: &'static str) -> Result<RotorDynamics<R>, BuildError> {
     let d = vehicle.require_rotor_dynamics(needed_by)?;
     Ok(RotorDynamics {
-        thrust_c1: constant(d.thrust_c1),
-        thrust_c2: constant(d.thrust_c2),
-        torque_c1: constant(d.torque_c1),
-        torque_c2: constant(d.torque_c2),
-        torque_c3: constant(d.torque_c3),
-        torque_c4: constant(d.torque_c4),
+        thrust_c1: d.thrust_c1,
+        thrust_c2: d.thrust_c2,
+        torque_c1: d.torque_c1,
+        torque_c2: d.torque_c2,
+        torque_c3: d.torque_c3,
+        torque_c4: d.torque_c4,
     })
 }
 
 /// Upper end of the polynomials' variable, V: full duty on the full battery, or on the nominal one.
-fn polynomial_range_end(vehicle: &Vehicle) -> f64 {
+fn polynomial_range_end<R: Real>(vehicle: &Vehicle<R>) -> R {
     let duty = vehicle.pwm.maximum - vehicle.pwm.minimum;
     duty * vehicle
         .battery
         .as_ref()
-        .map_or(1.0, |b| b.full_voltage.max(b.nominal_voltage))
+        .map_or(R::one(), |b| b.full_voltage.simd_max(b.nominal_voltage))
 }
 
-fn cubic<R: Real>([k1, k2, k3]: [f64; 3]) -> Cubic<R> {
-    Cubic {
-        k1: constant(k1),
-        k2: constant(k2),
-        k3: constant(k3),
-    }
+fn cubic<R: Real>([k1, k2, k3]: [R; 3]) -> Cubic<R> {
+    Cubic { k1, k2, k3 }
 }
 
 impl<R: Real> FamilyRotor<R> for IdealRotor<R> {
@@ -91,11 +91,11 @@ impl<R: Real> FamilyRotor<R> for IdealRotor<R> {
     const LEVEL: Option<Level> = Some(Level::Two);
     const FEELS_VOLTAGE: bool = false;
 
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+    fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         Ok(ideal(vehicle))
     }
 
-    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
+    fn supply(vehicle: &Vehicle<R>, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
         Ok(stiff(vehicle))
     }
 }
@@ -106,16 +106,16 @@ impl<R: Real> FamilyRotor<R> for FirstOrderRotor<R> {
     const LEVEL: Option<Level> = Some(Level::Three);
     const FEELS_VOLTAGE: bool = false;
 
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+    fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let gains = &vehicle.linear_rotor;
         Ok(Self {
-            thrust_gain: constant(gains.thrust_gain),
-            torque_per_thrust: constant(gains.torque_gain / gains.thrust_gain),
-            bandwidth: constant(gains.bandwidth),
+            thrust_gain: gains.thrust_gain,
+            torque_per_thrust: gains.torque_gain / gains.thrust_gain,
+            bandwidth: gains.bandwidth,
         })
     }
 
-    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
+    fn supply(vehicle: &Vehicle<R>, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
         Ok(stiff(vehicle))
     }
 
@@ -131,7 +131,7 @@ impl<R: Real> FamilyRotor<R> for LinearRotor<R> {
     const LEVEL: Option<Level> = Some(Level::Four);
     const FEELS_VOLTAGE: bool = false;
 
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+    fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let IdealRotor {
             thrust_gain,
             torque_gain,
@@ -143,7 +143,7 @@ impl<R: Real> FamilyRotor<R> for LinearRotor<R> {
         })
     }
 
-    fn supply(vehicle: &Vehicle, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
+    fn supply(vehicle: &Vehicle<R>, _sag: bool) -> Result<ConstantVoltage<R>, BuildError> {
         Ok(stiff(vehicle))
     }
 }
@@ -154,18 +154,18 @@ impl<R: Real> FamilyRotor<R> for NonLinearRotor<R> {
     const LEVEL: Option<Level> = Some(Level::Five);
     const FEELS_VOLTAGE: bool = true;
 
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+    fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let polynomial = vehicle.require_polynomial_rotor("level 5")?;
         Ok(Self {
             thrust: cubic(polynomial.thrust),
             torque: cubic(polynomial.torque),
-            range_end: constant(polynomial_range_end(vehicle)),
+            range_end: polynomial_range_end(vehicle),
             zero_thrust_offset: zero_thrust_offset(vehicle),
             dynamics: dynamics(vehicle, "level 5")?,
         })
     }
 
-    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Battery<R>, BuildError> {
+    fn supply(vehicle: &Vehicle<R>, sag: bool) -> Result<Battery<R>, BuildError> {
         battery(vehicle, sag, "level 5")
     }
 }
@@ -176,24 +176,24 @@ impl<R: Real> FamilyRotor<R> for MechanisticRotor<R> {
     const LEVEL: Option<Level> = None;
     const FEELS_VOLTAGE: bool = true;
 
-    fn of(vehicle: &Vehicle) -> Result<Self, BuildError> {
+    fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let needed_by = "the mechanistic vehicle";
         let m = vehicle.require_motor(needed_by)?;
         Ok(Self {
             propeller: propeller(vehicle, needed_by)?,
             motor: Motor {
-                velocity_constant: constant(m.velocity_constant),
-                resistance: constant(m.resistance),
-                no_load_current: constant(m.no_load_current),
-                controller_lag: constant(m.controller_lag),
-                full_voltage_duty: constant(m.full_voltage_duty),
+                velocity_constant: m.velocity_constant,
+                resistance: m.resistance,
+                no_load_current: m.no_load_current,
+                controller_lag: m.controller_lag,
+                full_voltage_duty: m.full_voltage_duty,
             },
-            inertia: constant(m.rotor_inertia),
+            inertia: m.rotor_inertia,
             zero_thrust_offset: zero_thrust_offset(vehicle),
         })
     }
 
-    fn supply(vehicle: &Vehicle, sag: bool) -> Result<Battery<R>, BuildError> {
+    fn supply(vehicle: &Vehicle<R>, sag: bool) -> Result<Battery<R>, BuildError> {
         battery(vehicle, sag, "the mechanistic vehicle")
     }
 }

@@ -61,7 +61,9 @@ impl Vehicle {
         let pwm = self.pwm;
         (pwm.minimum - pwm.zero_thrust)..=(pwm.maximum - pwm.zero_thrust)
     }
+}
 
+impl<R> Vehicle<R> {
     /// Transfer functions of the empirical rotor.
     ///
     /// # Errors
@@ -69,7 +71,7 @@ impl Vehicle {
     pub fn require_rotor_dynamics(
         &self,
         needed_by: &'static str,
-    ) -> Result<&RotorDynamicsParameters, VehicleError> {
+    ) -> Result<&RotorDynamicsParameters<R>, VehicleError> {
         self.require(&self.rotor_dynamics, "rotor_dynamics", needed_by)
     }
 
@@ -80,7 +82,7 @@ impl Vehicle {
     pub fn require_polynomial_rotor(
         &self,
         needed_by: &'static str,
-    ) -> Result<&PolynomialRotorParameters, VehicleError> {
+    ) -> Result<&PolynomialRotorParameters<R>, VehicleError> {
         self.require(&self.polynomial_rotor, "polynomial_rotor", needed_by)
     }
 
@@ -88,7 +90,10 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_propeller(&self, needed_by: &'static str) -> Result<&PropellerParameters, VehicleError> {
+    pub fn require_propeller(
+        &self,
+        needed_by: &'static str,
+    ) -> Result<&PropellerParameters<R>, VehicleError> {
         self.require(&self.propeller, "propeller", needed_by)
     }
 
@@ -96,7 +101,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_motor(&self, needed_by: &'static str) -> Result<&MotorParameters, VehicleError> {
+    pub fn require_motor(&self, needed_by: &'static str) -> Result<&MotorParameters<R>, VehicleError> {
         self.require(&self.motor, "motor", needed_by)
     }
 
@@ -104,7 +109,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_battery(&self, needed_by: &'static str) -> Result<&BatteryParameters, VehicleError> {
+    pub fn require_battery(&self, needed_by: &'static str) -> Result<&BatteryParameters<R>, VehicleError> {
         self.require(&self.battery, "battery", needed_by)
     }
 
@@ -112,7 +117,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_drag(&self, needed_by: &'static str) -> Result<&DragParameters, VehicleError> {
+    pub fn require_drag(&self, needed_by: &'static str) -> Result<&DragParameters<R>, VehicleError> {
         self.require(&self.drag, "drag", needed_by)
     }
 
@@ -120,7 +125,7 @@ impl Vehicle {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_arms(&self, needed_by: &'static str) -> Result<&ArmParameters, VehicleError> {
+    pub fn require_arms(&self, needed_by: &'static str) -> Result<&ArmParameters<R>, VehicleError> {
         self.require(&self.arms, "arms", needed_by)
     }
 

@@ -14,8 +14,10 @@ pub mod derive;
 mod error;
 pub mod file;
 mod limits;
+mod map;
 #[cfg(test)]
 mod tests;
+pub mod uncertain;
 mod validate;
 
 use nalgebra::{Matrix3, Vector3};
@@ -23,6 +25,7 @@ use serde::{Deserialize, Serialize};
 
 pub use error::VehicleError;
 pub use file::{Sourced, VehicleFile};
+pub use uncertain::UncertainVehicle;
 
 /// Sense of rotation of a rotor, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -45,94 +48,95 @@ impl Spin {
     }
 }
 
-/// A quadrotor's parameters, SI units throughout.
+/// A quadrotor's parameters, SI units throughout; over another scalar than f64 where they are differentiated
+/// ([`crate::sensitivity`]).
 ///
 /// The fields are open: a study changes what it likes and may call [`Vehicle::validate`] again.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Vehicle {
+pub struct Vehicle<R = f64> {
     /// Name, as legends and messages print it.
     pub name: String,
     /// What it is and where its numbers come from as a whole.
     pub description: String,
     /// Where it flies.
-    pub environment: Environment,
+    pub environment: Environment<R>,
     /// Rigid body.
-    pub airframe: Airframe,
+    pub airframe: Airframe<R>,
     /// The four rotors in the order of the commands; on a '+' layout 1 rear, 2 front, 3 left, 4 right.
-    pub rotors: [RotorMount; 4],
+    pub rotors: [RotorMount<R>; 4],
     /// Range of the raw PWM command.
-    pub pwm: PwmRange,
+    pub pwm: PwmRange<R>,
     /// Linear rotor, levels 1 to 4.
-    pub linear_rotor: LinearRotorParameters,
+    pub linear_rotor: LinearRotorParameters<R>,
     /// Transfer functions of the empirical rotor, levels 4 and 5.
-    pub rotor_dynamics: Option<RotorDynamicsParameters>,
+    pub rotor_dynamics: Option<RotorDynamicsParameters<R>>,
     /// Static polynomials of the empirical rotor, level 5.
-    pub polynomial_rotor: Option<PolynomialRotorParameters>,
+    pub polynomial_rotor: Option<PolynomialRotorParameters<R>>,
     /// Propeller: mechanistic rotor, and rotor speed from thrust.
-    pub propeller: Option<PropellerParameters>,
+    pub propeller: Option<PropellerParameters<R>>,
     /// Motor and speed controller: mechanistic rotor.
-    pub motor: Option<MotorParameters>,
+    pub motor: Option<MotorParameters<R>>,
     /// Battery.
-    pub battery: Option<BatteryParameters>,
+    pub battery: Option<BatteryParameters<R>>,
     /// Drag and rate damping of the airframe.
-    pub drag: Option<DragParameters>,
+    pub drag: Option<DragParameters<R>>,
     /// Arms under the rotors.
-    pub arms: Option<ArmParameters>,
+    pub arms: Option<ArmParameters<R>>,
 }
 
 /// Where a vehicle flies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Environment {
+pub struct Environment<R = f64> {
     /// Gravitational acceleration g, m/s², along `+z_W` (down).
-    pub gravity: f64,
+    pub gravity: R,
     /// Air density ρ, kg/m³.
-    pub air_density: f64,
+    pub air_density: R,
 }
 
 /// The rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Airframe {
+pub struct Airframe<R = f64> {
     /// Mass m, kg.
-    pub mass: f64,
+    pub mass: R,
     /// Inertia matrix I about the centre of mass in body axes B (forward, right, down), kg·m².
-    pub inertia: Matrix3<f64>,
+    pub inertia: Matrix3<R>,
     /// Arm length L from the geometric centre to a hub, m; scales the lateral and longitudinal pseudo-inputs.
-    pub arm_length: f64,
+    pub arm_length: R,
     /// Centre of mass in the airframe's geometric frame, body axes, m.
-    pub centre_of_mass: Vector3<f64>,
+    pub centre_of_mass: Vector3<R>,
 }
 
 /// Where a rotor sits and how it turns.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RotorMount {
+pub struct RotorMount<R = f64> {
     /// Name of the place, as in `rear`.
     pub name: String,
     /// Hub position r relative to the centre of mass, in B, m.
-    pub position: Vector3<f64>,
+    pub position: Vector3<R>,
     /// Sense of rotation seen from above.
     pub spin: Spin,
 }
 
 /// Range of the raw PWM command ū, a duty without unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PwmRange {
+pub struct PwmRange<R = f64> {
     /// Lower end ū_min, where the controller applies no voltage.
-    pub minimum: f64,
+    pub minimum: R,
     /// Upper end ū_max.
-    pub maximum: f64,
+    pub maximum: R,
     /// Zero-thrust value ū_0: where the linear rotor's line meets zero thrust. Zeroed command `u = ū − ū_0`.
-    pub zero_thrust: f64,
+    pub zero_thrust: R,
 }
 
 /// Linear rotor `T = K_T u`, `Q = K_Q u` with bandwidth ω_R.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LinearRotorParameters {
+pub struct LinearRotorParameters<R = f64> {
     /// Thrust gain K_T, N per unit of zeroed duty; thrust along `−z_B`, positive up.
-    pub thrust_gain: f64,
+    pub thrust_gain: R,
     /// Torque gain K_Q, N·m per unit of zeroed duty; positive against the spin.
-    pub torque_gain: f64,
+    pub torque_gain: R,
     /// Bandwidth ω_R of thrust and torque, rad/s.
-    pub bandwidth: f64,
+    pub bandwidth: R,
 }
 
 /// Transfer functions from the static to the actual thrust and torque.
@@ -140,93 +144,93 @@ pub struct LinearRotorParameters {
 /// Thrust `c_T2 / (s² + c_T1 s + c_T2)`, reaction torque on the airframe `(c_Q1 s + c_Q2) / (s² + c_Q3 s + c_Q4)` with
 /// `c_Q2 = c_Q4`. The torque is what a bench measures, aerodynamic plus spin-up `Q + I_R dΩ/dt`; hence its zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RotorDynamicsParameters {
+pub struct RotorDynamicsParameters<R = f64> {
     /// c_T1, 1/s.
-    pub thrust_c1: f64,
+    pub thrust_c1: R,
     /// c_T2, 1/s².
-    pub thrust_c2: f64,
+    pub thrust_c2: R,
     /// c_Q1, 1/s; 0 if the zero is absent.
-    pub torque_c1: f64,
+    pub torque_c1: R,
     /// c_Q2, 1/s².
-    pub torque_c2: f64,
+    pub torque_c2: R,
     /// c_Q3, 1/s.
-    pub torque_c3: f64,
+    pub torque_c3: R,
     /// c_Q4, 1/s².
-    pub torque_c4: f64,
+    pub torque_c4: R,
 }
 
 /// Static thrust and torque as polynomials `k_1 x + k_2 x² + k_3 x³` in the effective motor voltage `x = (ū − ū_min) V_b`.
 ///
 /// x is in volts with the duty as it is; it is not yet the voltage at the motor, which is `x / full_voltage_duty`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PolynomialRotorParameters {
+pub struct PolynomialRotorParameters<R = f64> {
     /// Thrust terms k_1 in N/V, k_2 in N/V², k_3 in N/V³.
-    pub thrust: [f64; 3],
+    pub thrust: [R; 3],
     /// Torque terms k_1 in N·m/V, k_2 in N·m/V², k_3 in N·m/V³.
-    pub torque: [f64; 3],
+    pub torque: [R; 3],
 }
 
 /// Propeller `T = C_T ρ n² D⁴`, `Q = C_Q ρ n² D⁵`, n in revolutions per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PropellerParameters {
+pub struct PropellerParameters<R = f64> {
     /// Diameter D, m.
-    pub diameter: f64,
+    pub diameter: R,
     /// Static thrust coefficient C_T.
-    pub thrust_coefficient: f64,
+    pub thrust_coefficient: R,
     /// Static torque coefficient `C_Q = C_P / 2π`.
-    pub torque_coefficient: f64,
+    pub torque_coefficient: R,
 }
 
 /// Brushless motor with its speed controller.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MotorParameters {
+pub struct MotorParameters<R = f64> {
     /// Velocity constant K_v, rad/s per volt; the torque constant is `1/K_v`.
-    pub velocity_constant: f64,
+    pub velocity_constant: R,
     /// Resistance of motor and controller R, Ω.
-    pub resistance: f64,
+    pub resistance: R,
     /// No-load current I_0, A.
-    pub no_load_current: f64,
+    pub no_load_current: R,
     /// Inertia of propeller and bell about the spin axis I_R, kg·m².
-    pub rotor_inertia: f64,
+    pub rotor_inertia: R,
     /// Time constant of the speed controller τ_ESC, s.
-    pub controller_lag: f64,
+    pub controller_lag: R,
     /// Duty above ū_min at which the whole battery voltage is applied: `V_eff = (ū − ū_min) / full_voltage_duty · V_b`.
-    pub full_voltage_duty: f64,
+    pub full_voltage_duty: R,
 }
 
 /// Battery with internal resistance and exponential zone.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BatteryParameters {
+pub struct BatteryParameters<R = f64> {
     /// Nominal voltage, V: the constant voltage of models without sag.
-    pub nominal_voltage: f64,
+    pub nominal_voltage: R,
     /// Open-circuit voltage when full, V.
-    pub full_voltage: f64,
+    pub full_voltage: R,
     /// Internal resistance, Ω.
-    pub internal_resistance: f64,
+    pub internal_resistance: R,
     /// Capacity, A·h.
-    pub capacity: f64,
+    pub capacity: R,
     /// Amplitude of the exponential zone A, V.
-    pub exponential_amplitude: f64,
+    pub exponential_amplitude: R,
     /// Rate of the exponential zone B, 1/(A·h).
-    pub exponential_rate: f64,
+    pub exponential_rate: R,
 }
 
 /// Drag of the airframe, against the air-relative velocity and the body rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DragParameters {
+pub struct DragParameters<R = f64> {
     /// Quadratic coefficients per body axis, N·s²/m²: `F_i = −k_i |v_i| v_i`.
-    pub quadratic: Vector3<f64>,
+    pub quadratic: Vector3<R>,
     /// Rate damping per body axis, N·m·s: `M_i = −d_i ω_i`.
-    pub rate_damping: Vector3<f64>,
+    pub rate_damping: Vector3<R>,
 }
 
 /// The arms, each of which runs in from its hub under half of the rotor's disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ArmParameters {
+pub struct ArmParameters<R = f64> {
     /// Width across the slipstream, m.
-    pub width: f64,
+    pub width: R,
     /// Drag coefficient C_D on the width, dimensionless.
-    pub drag_coefficient: f64,
+    pub drag_coefficient: R,
     /// Distance below the rotor disc, m.
-    pub drop: f64,
+    pub drop: R,
 }

@@ -3,6 +3,7 @@
 mod bad_input;
 mod derivation;
 mod round_trip;
+mod uncertain;
 
 use super::{Vehicle, VehicleError, VehicleFile, builtin};
 

@@ -219,11 +219,7 @@ impl<'a> Plan<'a> {
                 .unwrap_or_else(std::sync::PoisonError::into_inner)
                 .add(row)
         };
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs.unwrap_or(0))
-            .build();
-        let pool = pool.map_err(|error| Failure::Usage(format!("--jobs: {error}")))?;
-        pool.install(|| left.par_iter().try_for_each(one))?;
+        threads(jobs)?.install(|| left.par_iter().try_for_each(one))?;
         let mut rows = journal
             .into_inner()
             .unwrap_or_else(std::sync::PoisonError::into_inner)
@@ -277,7 +273,16 @@ fn fly(scenario: &Scenario, files: &dyn Files) -> Result<(scenario::Ending, Vec<
     Ok((ending, metrics.map_or_else(Vec::new, |metrics| metrics.metrics())))
 }
 
-fn progress_bar(count: u64, done: u64, json: bool) -> ProgressBar {
+/// So many threads, or as many as there are cores.
+pub(crate) fn threads(jobs: Option<usize>) -> Result<rayon::ThreadPool, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(jobs.unwrap_or(0))
+        .build();
+    pool.map_err(|error| Failure::Usage(format!("--jobs: {error}")))
+}
+
+/// A bar for so many runs, of which some are done.
+pub(crate) fn progress_bar(count: u64, done: u64, json: bool) -> ProgressBar {
     let bar = if json {
         ProgressBar::hidden()
     } else {

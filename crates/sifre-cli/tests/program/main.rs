@@ -7,3 +7,4 @@ mod optimise;
 mod questions;
 mod support;
 mod sweeps;
+mod uncertainty;
