@@ -56,10 +56,7 @@ fn add_errors(value: &mut toml::Value) {
 fn flown<R: Real, M: QuadrotorModel<R>>(model: &M, start: &M) -> [R; 3] {
     let hover = start.hover(Vector3::new(R::zero(), R::zero(), constant(-0.4)), R::zero());
     let commands = std::array::from_fn(|i| hover.input.commands[i] * constant(COMMANDS[i]));
-    let input = Input {
-        commands,
-        wind: Vector3::new(constant(1.0), constant(-2.0), R::zero()),
-    };
+    let input = Input::in_wind(commands, Vector3::new(constant(1.0), constant(-2.0), R::zero()));
     let mut state = hover.state;
     for _ in 0..STEPS {
         state = rk4_step(model, &state, &input, constant(STEP_S));
