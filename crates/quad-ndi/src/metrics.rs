@@ -98,7 +98,8 @@ impl Effort {
             .windows(2)
             .filter(|w| saturated(&w[0]))
             .map(|w| w[1].time_s - w[0].time_s)
-            .sum();
+            // Not `sum`, which of nothing is −0.
+            .fold(0.0, |total, held| total + held);
         Self {
             rms_command: rms(&points, |_| 0.0),
             saturation_time_s,

@@ -1,14 +1,23 @@
 //! Conventional cascaded PID: height; yaw; position → tilt → moments.
 //!
-//! Each loop is `k_p e + I − k_d (ẏ_f − ẏ_d)`: the derivative of the measurement comes through a first-order
+//! Each loop is `b k_p e + I − k_d (ẏ_f − ẏ_d)`: the derivative of the measurement comes through a first-order
 //! filter `ẏ_f = N (y − y_f)`, that of the set point from the reference, so a step gives no kick and a ramp no
-//! lag. The integral `İ = k_i e + k_w Δ` is held back by what
+//! lag. The integral `İ = k_i e − (1 − b) k_p (ẏ_f − ẏ_d) + k_w Δ` is held back by what
 //! saturation took from the output, `Δ = saturated − demanded` (back-calculation). The filter is solved
 //! exactly for a measurement held over the step and `ẏ_f` taken as its mean rate over it, so that a ramp's
-//! slope comes out exact at any step. The loops know the vehicle's weight, inertia and allocation, so gains
+//! slope comes out exact at any step.
+//!
+//! `b` is the set-point weight. At a step of the set point the proportional action sees `b` of it, the rest comes
+//! through the integral; loads and smooth references see all of `k_p` whatever `b` is. On `ÿ = u`, the poles
+//! `(s² + 2ζω s + ω²)(s + a)` and `b = ω²/k_p` put the step's zero on the integral's pole `−a`, so that the step is the
+//! second-order response of a dynamic inversion and the integral leaves no overshoot
+//! ([`PidGains::placed`]). With `b = 1` any integral overshoots: without load `∫e dt = 0`. A loop without integral
+//! action has `b = 1`.
+//! The loops know the vehicle's weight, inertia and allocation, so gains
 //! are in 1/s², 1/s³ and 1/s and carry over between vehicles; they know nothing of coupling or lag, and use
 //! no reference derivative above the first. [`tune`] finds gains. Source: thesis chapter 6.6.1
-//! (structure); Åström and Hägglund, *Advanced PID Control*, chapters 3 and 8 (filter, back-calculation).
+//! (structure); Åström and Hägglund, *Advanced PID Control*, chapters 3 and 8 (filter, set-point weight,
+//! back-calculation).
 
 mod tuning;
 
@@ -53,6 +62,14 @@ pub struct PidSettings {
     pub tilt_limit_rad: f64,
     /// Rate `k_w` of the back-calculation, 1/s.
     pub anti_windup_per_s: f64,
+    /// Set-point weight `b` of all loops with integral action, above 0 and up to 1.
+    #[serde(default = "whole")]
+    pub set_point_weight: f64,
+}
+
+/// The set point without a weight.
+const fn whole() -> f64 {
+    1.0
 }
 
 /// The loops in the order of the controller's memory.
@@ -76,6 +93,8 @@ pub struct Pid<R: Real> {
     pub tilt_limit: R,
     /// Rate `k_w` of the back-calculation, 1/s.
     pub anti_windup: R,
+    /// Set-point weight `b` of the loops with integral action.
+    pub set_point_weight: R,
     /// What it believes of the rigid body.
     pub body: RigidBody<R>,
     /// What it believes of the rotors.
@@ -93,6 +112,18 @@ pub struct PidMemory<R: Real> {
     pub filtered: [R; LOOPS],
     /// 0 before the first call, 1 after: the first call starts the filters at the measurement.
     pub primed: R,
+}
+
+impl PidGains {
+    /// Gains that place the poles of `ÿ = u` at `(s + ω)² (s + a)`, given `ω` and `a`, rad/s: `k_p = ω² + 2ωa`,
+    /// `k_i = a ω²`, `k_d = 2ω + a`. The set-point weight that belongs to them is `ω²/k_p`.
+    pub fn placed(omega: f64, integral_pole: f64) -> Self {
+        Self {
+            proportional: omega * (omega + 2.0 * integral_pole),
+            integral: omega * omega * integral_pole,
+            derivative: 2.0 * omega + integral_pole,
+        }
+    }
 }
 
 impl PidSettings {
@@ -122,6 +153,11 @@ impl PidSettings {
         if self.tilt_limit_rad >= std::f64::consts::FRAC_PI_2 {
             return Err(SettingsError::TiltLimit {
                 tilt_limit_rad: self.tilt_limit_rad,
+            });
+        }
+        if !(self.set_point_weight > 0.0 && self.set_point_weight <= 1.0) {
+            return Err(SettingsError::SetPointWeight {
+                set_point_weight: self.set_point_weight,
             });
         }
         Ok(())
@@ -155,16 +191,24 @@ impl<R: Real> Pid<R> {
             filter_bandwidth: constant(settings.filter_bandwidth_rad_s),
             tilt_limit: constant(settings.tilt_limit_rad),
             anti_windup: constant(settings.anti_windup_per_s),
+            set_point_weight: constant(settings.set_point_weight),
             body: RigidBody::of(vehicle),
             allocation: Allocation::of(vehicle)?,
             limits: None,
         })
     }
 
-    /// `k_p e + I − k_d (ẏ_f − ẏ_d)` of one loop.
+    /// `b k_p e + I − k_d (ẏ_f − ẏ_d)` of one loop.
     #[inline(always)]
     fn output(&self, i: usize, error: R, integral: R, rate: R) -> R {
-        self.proportional[i] * error + integral - self.derivative[i] * rate
+        self.weight(i) * self.proportional[i] * error + integral - self.derivative[i] * rate
+    }
+
+    /// The set-point weight of one loop: without integral action there is nothing to take the rest.
+    #[inline(always)]
+    fn weight(&self, i: usize) -> R {
+        self.set_point_weight
+            .select(self.integral[i].simd_gt(R::zero()), R::one())
     }
 
     /// The inner loops alone: a tilt `[φ, θ]`, rad, demanded directly as a pilot does, height and yaw from
@@ -181,6 +225,7 @@ impl<R: Real> Pid<R> {
         let outer = Outer {
             tilt,
             errors: [R::zero(); 2],
+            rates: [R::zero(); 2],
             shortfall: [R::zero(); 2],
         };
         self.inner(memory, &self.sense(memory, flight, dt), &outer, reference, dt)
@@ -215,14 +260,8 @@ impl<R: Real> Pid<R> {
             flat.position.x - sensed.measured[0],
             flat.position.y - sensed.measured[1],
         ];
-        let raw: [R; 2] = std::array::from_fn(|i| {
-            self.output(
-                i,
-                errors[i],
-                memory.integrals[i],
-                sensed.rates[i] - flat.velocity[i],
-            )
-        });
+        let rates = std::array::from_fn(|i| sensed.rates[i] - flat.velocity[i]);
+        let raw: [R; 2] = std::array::from_fn(|i| self.output(i, errors[i], memory.integrals[i], rates[i]));
         let g = self.body.gravity;
         let largest = self.tilt_limit * g;
         let size = (raw[0] * raw[0] + raw[1] * raw[1]).simd_sqrt();
@@ -235,6 +274,7 @@ impl<R: Real> Pid<R> {
                 -(cut[0] * cos + cut[1] * sin) / g,
             ],
             errors,
+            rates,
             shortfall: [cut[0] - raw[0], cut[1] - raw[1]],
         }
     }
@@ -259,16 +299,16 @@ impl<R: Real> Pid<R> {
             wrapped(reference.flat.yaw - y[YAW]),
         ];
         // Roll and pitch demands come without rates.
-        let (o, flat) = (R::zero(), &reference.flat);
-        let wanted_rates = [o, o, flat.velocity.z, o, o, flat.yaw_rate];
-        let out = |i: usize| {
-            self.output(
-                i,
-                errors[i],
-                memory.integrals[i],
-                sensed.rates[i] - wanted_rates[i],
-            )
-        };
+        let (seen, flat) = (&sensed.rates, &reference.flat);
+        let rates = [
+            outer.rates[0],
+            outer.rates[1],
+            seen[2] - flat.velocity.z,
+            seen[3],
+            seen[4],
+            seen[YAW] - flat.yaw_rate,
+        ];
+        let out = |i: usize| self.output(i, errors[i], memory.integrals[i], rates[i]);
         let demand = Demand {
             thrust: self.body.mass * (self.body.gravity - out(2)),
             moment: self.body.inertia * Vector3::new(out(3), out(4), out(YAW)),
@@ -289,7 +329,8 @@ impl<R: Real> Pid<R> {
             turned.z,
         ];
         let integrals = std::array::from_fn(|i| {
-            let rate = self.integral[i] * errors[i] + self.anti_windup * shortfall[i];
+            let unweighted = (R::one() - self.weight(i)) * self.proportional[i];
+            let rate = self.integral[i] * errors[i] - unweighted * rates[i] + self.anti_windup * shortfall[i];
             // A loop without integral action has nothing to hold back.
             let active = self.integral[i].simd_gt(R::zero());
             memory.integrals[i] + rate.select(active, R::zero()) * dt
@@ -316,6 +357,8 @@ struct Sensed<R> {
 struct Outer<R> {
     tilt: [R; 2],
     errors: [R; 2],
+    /// Rates over those of the reference.
+    rates: [R; 2],
     shortfall: [R; 2],
 }
 

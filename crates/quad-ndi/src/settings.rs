@@ -87,6 +87,12 @@ pub enum SettingsError {
         /// What it was, rad.
         tilt_limit_rad: f64,
     },
+    /// A set-point weight outside 0 to 1.
+    #[error("set_point_weight = {set_point_weight}: it must be above 0 and at most 1")]
+    SetPointWeight {
+        /// What it was.
+        set_point_weight: f64,
+    },
     /// A settling time and damping that no natural frequency meets.
     #[error("controller setting `{key}`: {source}")]
     Settling {

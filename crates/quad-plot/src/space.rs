@@ -72,7 +72,7 @@ enum Layer {
 const PICTURE: (f64, f64) = (520.0, 420.0);
 const BORDER: f64 = 8.0;
 /// Look of shadows on the floor.
-const SHADOW: Look = Look::solid("#c4c4c4", 1.2);
+const SHADOW: Look = Look::solid("#c4c4c4", 0.6);
 impl Space {
     /// An empty space with axis labels, the third for the vertical axis, which points up.
     pub fn new(x: impl Into<String>, y: impl Into<String>, up: impl Into<String>) -> Self {

@@ -7,15 +7,17 @@
 //! settling time is designed for, so that the two can be compared fairly. The cost is
 //!
 //! ```text
-//! J = ∫ s ∣y_m − y∣/A ds  +  2 ∫ s ∣A − y∣/A ds  +  0.005 Σ ∣Δu_i∣/(4 u_h)  +  300 max(0, overshoot − 1 %)²
-//!     step, 0 … 2τ           load, 2τ … 4τ          command activity           overshoot
+//! J = ∫ s ∣y_m − y∣/A ds  +  ∫ s ∣A − y∣/A ds  +  0.005 Σ ∣Δu_i∣/(4 u_h)  +  300 max(0, overshoot − 1 %)²
+//!     step, 0 … 2τ           load, 2τ … 4τ        command activity           overshoot
 //! ```
 //!
 //! with `s` the time since step or load over τ, `A` the step, `u_h` the hover command, `Δu_i` the change of a
 //! command from one sample to the next. A flight that stops being finite costs 10⁶ and more, the more the sooner.
 //!
-//! Unknowns are the logarithms of the three gains over those of the reference model, `k_p = ω²`, `k_d = 2ω`,
-//! `k_i = 0.1 ω³`, in a box: factor 10 either way for `k_p` and `k_d`, 30 for `k_i`. Outside the box the cost is
+//! Unknowns are the logarithms of the three gains over those that place the poles of `ÿ = u` at the reference
+//! model's and at `−ω/2` ([`PidGains::placed`]): `k_p = 2ω²`, `k_d = 2.5ω`, `k_i = 0.5ω³`, with the set-point weight
+//! ½ that makes the step of such a loop the reference model. The search moves them to what the rotors' lag, the
+//! limits and the load leave best, in a box: factor 10 either way for `k_p` and `k_d`, 30 for `k_i`. Outside the box the cost is
 //! that of the nearest point in it plus the squared distance. Nelder-Mead (argmin) searches from a few starts
 //! drawn within a factor 4 by ChaCha8 (rand_chacha) seeded with [`TuningOptions::seed`], and once more from the
 //! best end. The same options give the same gains to the last bit on the same build.
@@ -31,8 +33,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use std::fmt;
 
-/// Integral gain of the reference model's gains, in ω³.
-const INTEGRAL_SHARE: f64 = 0.1;
+/// Pole of the integral in the gains before the search, in ω: an integral time `k_p/k_i` of 4/ω.
+const INTEGRAL_POLE: f64 = 0.5;
+
+/// The set-point weight that belongs to it, `ω²/k_p`.
+const SET_POINT_WEIGHT: f64 = 1.0 / (1.0 + 2.0 * INTEGRAL_POLE);
 
 /// Fewest and most samples of one flight that make sense.
 const SAMPLES: [f64; 2] = [100.0, 1e6];
@@ -80,6 +85,8 @@ pub struct TuningOptions {
     pub tilt_limit_rad: f64,
     /// Rate `k_w` of the back-calculation, 1/s; not tuned.
     pub anti_windup_per_s: f64,
+    /// Set-point weight `b`; not tuned.
+    pub set_point_weight: f64,
     /// Time between two samples, s; the model takes one RK4 step between them.
     pub step_s: f64,
     /// Seed of the starts.
@@ -91,9 +98,10 @@ pub struct TuningOptions {
 }
 
 impl Default for TuningOptions {
-    /// Level 3 with input limits; settling times 0.5, 2, 2 and 5 s, steps of 0.1 rad, 1 rad, 1 m and 1 m.
+    /// Level 3 with input limits; settling times 0.8, 2, 2 and 5 s, steps of 0.1 rad, 1 rad, 1 m and 1 m.
     ///
-    /// The attitude loop's 0.5 s is a tenth of the position loop's 5 s, the ratio of the inversions' defaults.
+    /// The attitude loop's 0.8 s is `ω` = 7.3 rad/s: half the bandwidth of 15 rad/s of the nominal vehicle's rotors,
+    /// of which PID knows nothing, and six times the position loop's.
     fn default() -> Self {
         let target = |settling_time_s, step| LoopTarget {
             settling_time_s,
@@ -102,13 +110,14 @@ impl Default for TuningOptions {
         Self {
             level: Level::Three,
             phenomena: Level::Three.phenomena().with(Phenomenon::InputLimits),
-            attitude: target(0.5, 0.1),
+            attitude: target(0.8, 0.1),
             yaw: target(2.0, 1.0),
             height: target(2.0, 1.0),
             position: target(5.0, 1.0),
             filter_bandwidth_rad_s: 100.0,
             tilt_limit_rad: std::f64::consts::FRAC_PI_6,
             anti_windup_per_s: 2.0,
+            set_point_weight: SET_POINT_WEIGHT,
             step_s: 0.002,
             seed: 1,
             starts: 3,
@@ -135,7 +144,7 @@ pub struct LoopReport {
     pub gains: PidGains,
     /// Their cost J.
     pub cost: f64,
-    /// Cost of the reference model's gains `ω², 0.1 ω³, 2ω`, which need no search.
+    /// Cost of the placed gains, which need no search.
     pub cost_before: f64,
     /// One report per start, the last being that from the best end.
     pub starts: Vec<StartReport>,
@@ -290,15 +299,11 @@ impl TuningOptions {
         Ok(())
     }
 
-    /// Settings with the reference models' gains everywhere.
+    /// Settings with placed gains everywhere.
     fn before(&self) -> Result<PidSettings, TuningError> {
         let gains = |tuned| -> Result<PidGains, TuningError> {
             let omega = self.frequency(tuned)?;
-            Ok(PidGains {
-                proportional: omega * omega,
-                integral: INTEGRAL_SHARE * omega.powi(3),
-                derivative: 2.0 * omega,
-            })
+            Ok(PidGains::placed(omega, INTEGRAL_POLE * omega))
         };
         Ok(PidSettings {
             height: gains(TunedLoop::Height)?,
@@ -308,6 +313,7 @@ impl TuningOptions {
             filter_bandwidth_rad_s: self.filter_bandwidth_rad_s,
             tilt_limit_rad: self.tilt_limit_rad,
             anti_windup_per_s: self.anti_windup_per_s,
+            set_point_weight: self.set_point_weight,
         })
     }
 }

@@ -19,6 +19,7 @@ pub(super) fn pid_settings() -> PidSettings {
         filter_bandwidth_rad_s: 100.0,
         tilt_limit_rad: 0.5,
         anti_windup_per_s: 2.0,
+        set_point_weight: 1.0,
     }
 }
 
@@ -210,6 +211,14 @@ fn exact_bad_pid_settings_are_named() {
             "1.6",
             PidSettings {
                 tilt_limit_rad: 1.6,
+                ..good
+            },
+        ),
+        (
+            "set_point_weight",
+            "1.5",
+            PidSettings {
+                set_point_weight: 1.5,
                 ..good
             },
         ),

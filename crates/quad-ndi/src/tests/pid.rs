@@ -4,8 +4,8 @@ use super::bad_input::pid_settings;
 use super::flights::{fly, plan};
 use super::*;
 use crate::metrics::StepMetrics;
-use crate::{AnyController, Controller, FlightLog, Pid, PidGains, PidSettings, Reference};
-use quad_dynamics::{CommandLimits, Flight, Level, Level2, Phenomenon, PhenomenonSet};
+use crate::{AnyController, Controller, FlightLog, Flyer, Pid, PidGains, PidSettings, Reference};
+use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, Level, Level2, Phenomenon, PhenomenonSet};
 
 const NO_GAINS: PidGains = PidGains {
     proportional: 0.0,
@@ -130,4 +130,83 @@ fn prop_anti_windup_recovers_faster() {
         with.overshoot < 0.02 && without.overshoot > 0.1,
         "{with:?} {without:?}"
     );
+}
+
+/// Height `−z` over time on level 1 with the heights that a path of `(h, ḣ)` asks for.
+fn heights(settings: &PidSettings, path: impl Fn(f64) -> (f64, f64)) -> Vec<(f64, f64)> {
+    let vehicle = Vehicle::qball_x4();
+    let pid = AnyController::Pid(Pid::new(&vehicle, settings).unwrap().into());
+    let model = AnyQuadrotor::hovering(
+        Level::One,
+        &vehicle,
+        &PhenomenonSet::none(),
+        Vector3::zeros(),
+        0.0,
+    );
+    let log = Flyer::new(&vehicle, model.unwrap(), pid)
+        .unwrap()
+        .fly(&plan(8.0, 10), |t| {
+            let (height, climb_rate) = path(t);
+            let mut reference = Reference::hold(Vector3::new(0.0, 0.0, -height), 0.0);
+            reference.flat.velocity.z = -climb_rate;
+            reference
+        });
+    log.records
+        .iter()
+        .map(|r| (r.time_s, -r.flight.position.z))
+        .collect()
+}
+
+/// Placed gains in height, their set-point weight, and a derivative filter that is out of the way.
+fn placed(omega: f64, integral_pole: f64) -> PidSettings {
+    let height = PidGains::placed(omega, integral_pole);
+    PidSettings {
+        height,
+        set_point_weight: omega * omega / height.proportional,
+        filter_bandwidth_rad_s: 1e4,
+        ..pid_settings()
+    }
+}
+
+#[test]
+fn exact_placed_gains_make_the_step_second_order() {
+    let omega = 2.9;
+    for integral_pole in [0.5, 1.45, 6.0] {
+        let settings = placed(omega, integral_pole);
+        for (t, h) in heights(&settings, |_| (1.0, 0.0)) {
+            let x = omega * t;
+            // Held commands and the rate as a mean over the last step make a millisecond of delay, at a speed of up to
+            // ω/e = 1.07 m/s, and the delayed derivative takes damping away: k_d · 1 ms, below 1.2 %.
+            let design = 1.0 - (1.0 + x) * (-x).exp();
+            assert!((h - design).abs() < 5e-3, "{integral_pole} {t}: {h} {design}");
+        }
+        // The same gains with the whole step on the proportional action: ∫e dt = 0 makes them overshoot.
+        let whole = PidSettings {
+            set_point_weight: 1.0,
+            ..settings
+        };
+        let top = heights(&whole, |_| (1.0, 0.0))
+            .iter()
+            .fold(0.0_f64, |m, (_, h)| m.max(*h));
+        assert!(top > 1.1, "{integral_pole}: {top}");
+    }
+}
+
+#[test]
+fn prop_a_smooth_reference_sees_no_set_point_weight() {
+    // Up and down from rest, with its rate: (1 − b) k_p is an integral of a rate instead of an error, which is the same.
+    let path = |t: f64| (1.0 - (1.5 * t).cos(), 1.5 * (1.5 * t).sin());
+    let weighted = placed(2.9, 1.45);
+    let whole = PidSettings {
+        set_point_weight: 1.0,
+        ..weighted
+    };
+    let (a, b) = (heights(&weighted, path), heights(&whole, path));
+    for (a, b) in a.iter().zip(&b) {
+        // The rectangle rule of the integral is half a step late: 0.5 ms at up to 1.5 m/s, half of k_p of it.
+        assert!((a.1 - b.1).abs() < 1e-3, "{a:?} {b:?}");
+    }
+    // And it lags, if at all, by the acceleration it isn't told: (s³ + 0)/(…) of the path.
+    let worst = a.iter().map(|(t, h)| (h - path(*t).0).abs()).fold(0.0, f64::max);
+    assert!(worst < 0.35, "{worst}");
 }

@@ -121,15 +121,16 @@ pub const POSITION: LoopSettings = LoopSettings {
 };
 
 /// The PID gains that come with the project, rounded from what `quad_ndi::pid::tune` finds with seed 1 at level 5
-/// of the Qball-X4 at constant voltage. They are per unit of mass and inertia, so that they carry over to other vehicles.
+/// of the Qball-X4 at constant voltage, commands limited. They are per unit of mass and inertia, so that they carry over to other vehicles.
 pub const PID: PidSettings = PidSettings {
-    height: gains(40.7, 1.5, 27.6),
-    yaw: gains(47.3, 5.2, 27.6),
-    position: gains(4.65, 0.054, 9.82),
-    attitude: gains(74.0, 37.5, 34.2),
+    height: gains(16.2, 13.0, 6.81),
+    yaw: gains(32.2, 25.5, 12.0),
+    position: gains(4.27, 1.32, 4.26),
+    attitude: gains(72.5, 110.0, 15.1),
     filter_bandwidth_rad_s: 100.0,
     tilt_limit_rad: std::f64::consts::FRAC_PI_6,
     anti_windup_per_s: 2.0,
+    set_point_weight: 0.5,
 };
 
 const fn gains(proportional: f64, integral: f64, derivative: f64) -> PidGains {
@@ -171,6 +172,10 @@ fn pid_settings(_: &mut SchemaGenerator) -> Schema {
             "filter_bandwidth_rad_s": positive("Bandwidth of the derivative filters, rad/s."),
             "tilt_limit_rad": positive("Largest demanded tilt, rad."),
             "anti_windup_per_s": positive("Rate of the back-calculation, 1/s."),
+            "set_point_weight": {
+                "type": "number", "exclusiveMinimum": 0, "maximum": 1, "default": 1,
+                "description": "Share of a step of the set point that the proportional action of loops with an integral sees at once.",
+            },
         },
         "required": [
             "height", "yaw", "position", "attitude", "filter_bandwidth_rad_s", "tilt_limit_rad", "anti_windup_per_s",

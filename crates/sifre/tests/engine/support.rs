@@ -55,6 +55,7 @@ pub(crate) fn pid(vehicle: &Vehicle) -> AnyController<f64> {
         filter_bandwidth_rad_s: 100.0,
         tilt_limit_rad: 0.4,
         anti_windup_per_s: 1.0,
+        set_point_weight: 0.5,
     };
     AnyController::Pid(Pid::new(vehicle, &settings).expect("valid gains").into())
 }

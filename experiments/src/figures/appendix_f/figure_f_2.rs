@@ -9,7 +9,7 @@ use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 pub(super) const ITEM: Item = Item {
     id: "F.2",
     title: "Inputs of figure F.1",
-    description: "Pseudo-inputs of the flights of figure F.1: longitudinal above, collective below, which stays at hover because level 1 does not couple height and attitude. The first second, in which all of the input happens.",
+    description: "Pseudo-inputs of the flights of figure F.1: longitudinal above, collective below, which stays at hover because level 1 does not couple height and attitude. The first three seconds: a slow attitude loop works longer.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[LARGER],
@@ -29,7 +29,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         labels,
         [|r| r.pseudo_inputs[2], |r| r.pseudo_inputs[0]],
         None,
-        1.0,
+        3.0,
     );
     Ok(Drawing::picture(picture)
         .data(sweep::table(varied, &runs))

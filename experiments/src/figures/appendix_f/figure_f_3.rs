@@ -25,7 +25,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         labels,
         [|r| r.flight.position.x, |r| r.flight.attitude.pitch],
         Some(1.0),
-        5.0,
+        3.0,
     );
     Ok(Drawing::picture(picture)
         .data(sweep::table(varied, &runs))

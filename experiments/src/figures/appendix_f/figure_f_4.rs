@@ -8,7 +8,7 @@ use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 pub(super) const ITEM: Item = Item {
     id: "F.4",
     title: "Inputs of figure F.3",
-    description: "Pseudo-inputs of the flights of figure F.3: longitudinal above, collective below, which stays at hover because level 1 does not couple height and attitude. The first second, in which all of the input happens.",
+    description: "Pseudo-inputs of the flights of figure F.3: longitudinal above, collective below, which stays at hover because level 1 does not couple height and attitude. The first second, after which less than a hundredth of each peak is left.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],

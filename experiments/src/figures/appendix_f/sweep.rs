@@ -27,7 +27,7 @@ impl Varied {
 
     fn name(self, value: f64) -> String {
         match self {
-            Self::FrequencyRatio => format!("{value} *ω*_{{n,p}}"),
+            Self::FrequencyRatio => format!("*ω*_{{n,a}} = {value} *ω*_{{n,p}}"),
             Self::Damping => format!("*ζ*_{{a}} = {value}"),
         }
     }

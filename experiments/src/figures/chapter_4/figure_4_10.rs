@@ -6,7 +6,8 @@ use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::flight::{Law, Scenario, completed, series};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use crate::plot::{Figure, Panel, level_style, reference_style, series_style};
+use crate::plot::style::GREY;
+use crate::plot::{Figure, Look, Panel, level_style, reference_style, series_style};
 use crate::rotor_bench::RotorBench;
 use crate::rotor_bench::panels::{DUTY, label, shown};
 use quad_dynamics::Level;
@@ -18,7 +19,7 @@ pub(super) const ITEM: Item = Item {
     id: "4.10",
     title: "Identified steady-state models of thrust and torque",
     description: "Readings over the operating range at 11.1 V (virtual thrust stand, nominal rotor) with the line and the cubic \
-                  identified from the stand, the dashed vertical line at hover; right, a step in height of a level 5 vehicle with the \
+                  identified from the stand, the grey line at hover; right, a step in height of a level 5 vehicle with the \
                   identified parameters under c1, and the height that the line's error at hover predicts.",
     kind: Kind::Plot,
     origin: Origin::VirtualLaboratory,
@@ -56,7 +57,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
                 .line("level 5 under c1", level_style(5), height.iter().copied())
                 .line(
                     "predicted at rest",
-                    series_style(1),
+                    series_style(2),
                     [(5.0, 1.0 - predicted), (8.0, 1.0 - predicted)],
                 )
                 .horizontal(1.0, "commanded"),
@@ -110,11 +111,16 @@ fn panel(bench: &RotorBench, found: &Found, quantity: Quantity) -> Panel {
         .samples
         .iter()
         .map(|s| (100.0 * s.duty, shown(quantity) * s.of(quantity)));
+    let readings = found.samples.iter().map(|s| shown(quantity) * s.of(quantity));
+    let (low, high) = readings.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+        (low.min(y), high.max(y))
+    });
+    let hover = [low, high].map(|y| (100.0 * found.hover_duty, y));
     Panel::new(DUTY, label(quantity))
         .markers("measured", reference_style(), measured)
         .line("linear", series_style(1), curve(0))
         .line("polynomial", series_style(0), curve(1))
-        .vertical(100.0 * found.hover_duty, "")
+        .line("hover", Look::solid(GREY, 1.0), hover)
 }
 
 fn table(bench: &RotorBench, found: &Found) -> DataTable {

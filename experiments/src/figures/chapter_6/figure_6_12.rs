@@ -11,7 +11,7 @@ use quad_dynamics::Level;
 pub(super) const ITEM: Item = Item {
     id: "6.12",
     title: "Unit step in yaw: c3 on levels 3 to 5",
-    description: "A step of one radian in heading under controller c3, input limits off. Settling time designed: 2 s. Above the heading, below the yaw pseudo-input, cut where its first spike would hide the rest.",
+    description: "A step of one radian in heading under controller c3, input limits off. Settling time designed: 2 s. Above the heading, below the yaw pseudo-input, cut where its first spike, up to 0.31, would hide the rest.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],

@@ -11,7 +11,7 @@ use quad_dynamics::Level;
 pub(super) const ITEM: Item = Item {
     id: "6.13",
     title: "Unit step in horizontal position: c1 on the family",
-    description: "A step of one metre in *x* under controller c1, input limits off. Above the position, then pitch and longitudinal pseudo-input. Settling time designed: 5 s, *ω*_{n,a} = 10 *ω*_{n,p} = 11.7 rad/s, which leaves a margin to the limits of the Routh array above level 3.",
+    description: "A step of one metre in *x* under controller c1, input limits off. Above the position, then its difference from level 1, pitch and longitudinal pseudo-input. Settling time designed: 5 s, *ω*_{n,a} = 10 *ω*_{n,p} = 11.7 rad/s, which leaves a margin to the limits of the Routh array above level 3.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],

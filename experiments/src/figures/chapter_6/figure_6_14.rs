@@ -31,6 +31,9 @@ const KEPT: f64 = 1e-9;
 /// Loss of height that a picture of a metre can show, m.
 const LOST: f64 = 1e-3;
 
+/// End of the time axis, s: rest follows, in the data and the claims.
+const SHOWN_S: f64 = 5.0;
+
 /// A claim, and what flights say of it.
 pub(crate) struct Judged {
     pub(crate) claim: Claim,
@@ -140,8 +143,8 @@ fn picture(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> crate::plot::sv
             })
     };
     Figure::columns(1)
-        .panel(panel(5))
-        .panel(panel(4))
+        .panel(panel(5).x_range(0.0, SHOWN_S))
+        .panel(panel(4).x_range(0.0, SHOWN_S))
         .share_x()
         .panel_size(440.0, 180.0)
         .draw()

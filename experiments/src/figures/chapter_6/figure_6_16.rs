@@ -11,7 +11,7 @@ use quad_dynamics::Level;
 pub(super) const ITEM: Item = Item {
     id: "6.16",
     title: "Unit step in horizontal position: c3 on levels 3 to 5",
-    description: "A step of one metre in *x* under controller c3, input limits off. Above the position, then pitch and longitudinal pseudo-input. Settling time designed: 5 s, *ω*_{n,a} = 10 *ω*_{n,p} = 11.7 rad/s, which leaves a margin to the limits of the Routh array above level 3. The source repeats the caption of figure 6.15 here; this is controller c3 on levels 3 to 5, which its series lacks.",
+    description: "A step of one metre in *x* under controller c3, input limits off. Above the position, then its difference from level 3, pitch and the longitudinal pseudo-input, cut where its first spike, up to 0.043, would hide the rest. Settling time designed: 5 s, *ω*_{n,a} = 10 *ω*_{n,p} = 11.7 rad/s, which leaves a margin to the limits of the Routh array above level 3. The source repeats the caption of figure 6.15 here; this is controller c3 on levels 3 to 5, which its series lacks.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],

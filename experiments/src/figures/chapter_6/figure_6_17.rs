@@ -15,7 +15,8 @@ pub(super) const ITEM: Item = Item {
     title: "Reference trajectory",
     description: "The smooth trajectory *y*_{t,d}(*t*) that the controllers follow in figures 6.18 to 6.20, 6.24 \
                   and 6.25: a climbing loop of 12 s through five waypoints, turning the heading once around. \
-                  Polynomials of degree 9 in position and 7 in heading join the waypoints.",
+                  Polynomials of degree 9 in position and 7 in heading join the waypoints; the fifth derivative of the position, which c3 alone feeds forward, exists everywhere \
+                  and jumps at the waypoints. Grey: projection on the ground.",
     kind: Kind::Plot,
     origin: Origin::Derived,
     claims: &[SMOOTH],
@@ -83,7 +84,24 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
             SMOOTH,
             jump < JUMP,
             format!("largest jump of any of these derivatives at a waypoint: {jump:.1e}"),
-        ))
+        )
+        .note(format!(
+            "the fifth derivative of the position jumps by up to {:.0} m/s⁵ at a waypoint",
+            crackle_jump(&trajectory)
+        )))
+}
+
+/// Largest jump of the fifth derivative of the position at a waypoint, m/s⁵.
+fn crackle_jump(trajectory: &Trajectory) -> f64 {
+    let jump = |t: f64| {
+        let crackle = |t: f64| trajectory.flat_output(t).crackle;
+        (crackle(t + NEAR_S) - crackle(t - NEAR_S)).norm()
+    };
+    trajectory
+        .waypoints()
+        .iter()
+        .map(|w| jump(w.time_s))
+        .fold(0.0, f64::max)
 }
 
 /// Largest change of position to snap and heading to jerk across the waypoints, ends included.

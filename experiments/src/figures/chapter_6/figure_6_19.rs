@@ -11,7 +11,7 @@ pub(super) const ITEM: Item = Item {
     id: "6.19",
     title: "Following a trajectory: c2 on levels 2 to 5",
     description: "The reference of figure 6.17 followed by controller c2 on levels 2 to 5, its derivatives fed forward, \
-                  input limits off. Below, the distance from the reference.",
+                  input limits off. Below, the distance from the reference. Grey: projection on the ground.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],

@@ -28,6 +28,9 @@ const SMALL: Claim = Claim::holds("e_z = z_1/2 − z_3 is small: below 2 % of th
 /// By hand: the pole delays by 1/p_z = 1/(20 ω), the step rises at most at ω/e, so e_z ≤ 1/(20 e) = 1.8 %.
 const LARGEST_ERROR: f64 = 0.02 * steps::STEP;
 
+/// End of the time axis, s: rest follows.
+const SHOWN_S: f64 = 3.0;
+
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let on = |law| Scenario::height_step(law, settings::height(2.0), 5.0);
     let pairs = [
@@ -67,8 +70,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     );
     let largest = error.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
     let figure = Figure::columns(1)
-        .panel(above)
-        .panel(below)
+        .panel(above.x_range(0.0, SHOWN_S))
+        .panel(below.x_range(0.0, SHOWN_S))
         .share_x()
         .panel_size(440.0, 180.0);
     Ok(Drawing::picture(figure.draw())

@@ -10,7 +10,7 @@ pub(super) const ITEM: Item = Item {
     id: "6.24",
     title: "NDI against PID: following a trajectory",
     description: "The reference of figure 6.17 on level 5 with limits, under controller c3 with its feed-forward and \
-                  under cascaded PID, which gets position, heading and their first derivatives. Below, the distance from the reference.",
+                  under cascaded PID, which gets position, heading and their first derivatives. Below, the distance from the reference. Grey: projection on the ground.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],

@@ -9,7 +9,8 @@ pub(super) const ITEM: Item = Item {
     id: "6.25",
     title: "NDI against PID: outputs and inputs along a trajectory",
     description: "The flights of figure 6.24: the four outputs on the left with the reference, the four \
-                  pseudo-inputs on the right.",
+                  pseudo-inputs on the right. The reference is smooth to its fourth derivative; c3 feeds the fifth forward too, \
+                  which jumps at the waypoints (3, 6, 9 and 12 s), and so do its lateral and longitudinal inputs.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],
@@ -50,7 +51,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let pair = comparison::fly_trajectory(context)?;
     Ok(
         Drawing::picture(comparison::picture(&pair, 2, &SHOWN, &REFERENCE))
-            .data(comparison::table(&pair))
+            .data(comparison::table(&pair, 0.0))
             .scenario(&pair.scenario)?,
     )
 }

@@ -52,7 +52,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         (Law::C2, Level::Two),
         (Law::C3, Level::Three),
     ];
-    let mut above = Panel::new("Time *t*, s", Quantity::X.label()).horizontal(steps::STEP, "");
+    let mut above = Panel::new("Time *t*, s", Quantity::X.label()).horizontal(steps::STEP, "set point");
     let mut below = Panel::new("Time *t*, s", "Error *e*_{x}, m");
     let (mut names, mut columns, mut largest) = (vec!["t_s".to_owned()], Vec::new(), Vec::new());
     for (law, level) in pairs {
@@ -65,7 +65,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             .collect();
         if columns.is_empty() {
             let design = response.iter().map(|&(t, _)| (t, steps::design(omega, t)));
-            above = above.line("design", reference_style(), design);
+            above = above.line("design", reference_style().dashed(""), design);
             columns.push(response.iter().map(|(t, _)| *t).collect::<Vec<f64>>());
         }
         largest.push(error.iter().fold(0.0_f64, |m, (_, e)| m.max(e.abs())));

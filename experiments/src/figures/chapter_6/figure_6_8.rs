@@ -11,7 +11,7 @@ use quad_dynamics::Level;
 pub(super) const ITEM: Item = Item {
     id: "6.8",
     title: "Unit step in height: c3 on levels 3 to 5",
-    description: "As figure 6.4 with controller c3, which inverts the rotor's lag too; its extra pole lies at *p*_{z} = 20 *ω*_{n,z}. Levels 4 and 5 are flown with the controller's own rotor observer.",
+    description: "As figure 6.4 with controller c3, which inverts the rotor's lag too; its extra pole lies at *p*_{z} = 20 *ω*_{n,z}. Levels 4 and 5 are flown with the controller's own rotor observer. The input is cut where its first spike, up to 1.50, would hide the rest.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[],

@@ -48,6 +48,23 @@ pub(crate) fn scenario(law: Law) -> Scenario {
     }
 }
 
+/// The same path in space at the heading of its start.
+pub(super) fn steady_heading(scenario: Scenario) -> Scenario {
+    let ahead = |w: Waypoint| Waypoint { yaw_rad: 0.0, ..w };
+    Scenario {
+        task: Task::Follow {
+            waypoints: waypoints().into_iter().map(ahead).collect(),
+        },
+        ..scenario
+    }
+}
+
+/// Largest distance of a flight from its reference, m.
+pub(super) fn largest_distance(log: &FlightLog) -> f64 {
+    let distance = |r: &quad_ndi::Record| (r.reference.flat.position - r.flight.position).norm();
+    log.records.iter().map(distance).fold(0.0, f64::max)
+}
+
 /// A flight along the reference.
 #[derive(Debug)]
 pub(super) struct Path {
@@ -181,7 +198,7 @@ pub(super) fn table(paths: &[Path]) -> DataTable {
 /// One sentence of numbers on each path.
 pub(super) fn remarks(paths: &[Path]) -> Vec<String> {
     let remark = |p: &Path| {
-        let largest = p.errors().iter().map(|(_, e)| *e).fold(0.0, f64::max);
+        let largest = largest_distance(&p.log);
         format!(
             "{}: RMS distance {:.4} m, largest {largest:.4} m",
             p.name,

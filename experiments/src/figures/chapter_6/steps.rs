@@ -127,16 +127,30 @@ pub(super) fn drawing(
     quantity: Quantity,
     outcomes: &[Outcome],
 ) -> Result<Drawing, ItemError> {
-    let drawing = Drawing::picture(picture(quantity, outcomes))
+    let drawing = Drawing::picture(picture(quantity, outcomes, shown_s(scenario, quantity)))
         .data(table(quantity, outcomes))
         .scenario(scenario)?;
     Ok(outcomes.iter().fold(drawing, |d, o| d.note(remark(quantity, o))))
 }
 
+/// End of the time axis in designed settling times: what follows is rest, in the data alone.
+const SHOWN: f64 = 1.6;
+
+/// End of the time axis, s.
+fn shown_s(scenario: &Scenario, quantity: Quantity) -> f64 {
+    let settings = &scenario.settings;
+    let designed = match quantity {
+        Quantity::Height => &settings.height,
+        Quantity::Yaw => &settings.yaw,
+        Quantity::X => &settings.position,
+    };
+    (SHOWN * designed.settling_time_s).min(scenario.duration_s)
+}
+
 /// Largest excursion that is still drawn, in steps; a diverging flight leaves the picture there.
 const CLIP: (f64, f64) = (-0.6, 2.0);
 
-fn picture(quantity: Quantity, outcomes: &[Outcome]) -> Svg {
+fn picture(quantity: Quantity, outcomes: &[Outcome], shown_s: f64) -> Svg {
     let (input_label, _, input) = quantity.pseudo_input();
     let mut above = Panel::new("Time *t*, s", quantity.label()).horizontal(STEP, "");
     let mut below = Panel::new("Time *t*, s", input_label);
@@ -153,8 +167,12 @@ fn picture(quantity: Quantity, outcomes: &[Outcome]) -> Svg {
     if extreme.0 < CLIP.0 || extreme.1 > CLIP.1 {
         above = above.y_range(extreme.0.max(CLIP.0), extreme.1.min(CLIP.1));
     }
-    let mut figure = Figure::columns(1).panel(above).share_x().panel_size(440.0, 180.0);
+    let mut figure = Figure::columns(1)
+        .panel(above.x_range(0.0, shown_s))
+        .share_x()
+        .panel_size(440.0, 180.0);
     if quantity == Quantity::X {
+        figure = figure.panel(differences(outcomes)).panel_size(440.0, 150.0);
         let pitch = outcomes
             .iter()
             .fold(Panel::new("Time *t*, s", "Pitch *θ*, rad"), |panel, o| {
@@ -166,11 +184,33 @@ fn picture(quantity: Quantity, outcomes: &[Outcome]) -> Svg {
     if let Some((low, high)) = range_without_spike(outcomes, input) {
         below = below.y_range(low, high);
     }
-    figure.panel(below).draw()
+    figure.panel(below.x_range(0.0, shown_s)).draw()
+}
+
+/// The horizontal position less that of the lowest level, which the position itself hides.
+fn differences(outcomes: &[Outcome]) -> Panel {
+    let Some((lowest, others)) = outcomes.split_first() else {
+        return Panel::default();
+    };
+    let label = format!("*x* − *x*_{{level {}}}, mm", lowest.level.number());
+    let base = lowest.response(Quantity::X);
+    let panel = Panel::new("Time *t*, s", label).horizontal(0.0, "");
+    others.iter().fold(panel, |panel, o| {
+        let response = o.response(Quantity::X);
+        let points = response
+            .iter()
+            .zip(&base)
+            .map(|((t, x), (_, b))| (*t, 1e3 * (x - b)));
+        let number = o.level.number();
+        panel.line("", level_style(number), points.collect::<Vec<_>>())
+    })
 }
 
 /// Time after which an input counts as past its first spike, s.
 const SPIKE_S: f64 = 0.1;
+
+/// Margin of a range that leaves the first spike out, as a fraction of it.
+const SPIKE_MARGIN: f64 = 0.15;
 
 /// Range of a pseudo-input after its first spike, with a margin, where the spike would hide the rest.
 fn range_without_spike(outcomes: &[Outcome], input: usize) -> Option<(f64, f64)> {
@@ -187,7 +227,7 @@ fn range_without_spike(outcomes: &[Outcome], input: usize) -> Option<(f64, f64)>
     };
     let ((low, high), (later_low, later_high)) = (extremes(0.0), extremes(SPIKE_S));
     let span = later_high - later_low;
-    (high - low > 3.0 * span).then_some((later_low - 0.5 * span, later_high + 0.5 * span))
+    (high - low > 3.0 * span).then_some((later_low - SPIKE_MARGIN * span, later_high + SPIKE_MARGIN * span))
 }
 
 /// Columns: time, then quantity and pseudo-input of each level.
@@ -220,6 +260,15 @@ fn table(quantity: Quantity, outcomes: &[Outcome]) -> DataTable {
     DataTable::from_columns(&borrowed)
 }
 
+/// A number with four digits after the point, and a zero without sign.
+pub(super) fn fixed(value: f64) -> String {
+    let text = format!("{value:.4}");
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().all(|b| b == b'0' || b == b'.') => size.to_owned(),
+        _ => text,
+    }
+}
+
 /// One sentence of numbers on a flight.
 fn remark(quantity: Quantity, outcome: &Outcome) -> String {
     let name = level_name(outcome.level.number());
@@ -235,10 +284,10 @@ fn remark(quantity: Quantity, outcome: &Outcome) -> String {
             format!("settles in {t:.2} s")
         });
     format!(
-        "{name}: {settled}, overshoot {:.1} %, steady-state error {:.4} {unit}, RMS error {:.3} {unit}, RMS command {:.4}, \
+        "{name}: {settled}, overshoot {:.1} %, error at the end {} {unit}, RMS error {:.3} {unit}, RMS command {:.4}, \
          saturated {:.2} s, largest pseudo-input {:.3}",
         100.0 * m.overshoot,
-        m.steady_state_error,
+        fixed(m.steady_state_error),
         m.rms_error,
         outcome.effort.rms_command,
         outcome.effort.saturation_time_s,

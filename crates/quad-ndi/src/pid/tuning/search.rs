@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use std::cell::RefCell;
 
-/// Half-widths of the box in the logarithms of `k_p`, `k_i`, `k_d` over the reference model's: ln 10, ln 30, ln 10.
+/// Half-widths of the box in the logarithms of `k_p`, `k_i`, `k_d` over the placed ones: ln 10, ln 30, ln 10.
 const BOX: [f64; 3] = [
     std::f64::consts::LN_10,
     3.401_197_381_662_155,
@@ -23,7 +23,7 @@ const START_REGION: f64 = 2.0 * std::f64::consts::LN_2;
 const EDGE: f64 = 0.4;
 
 /// Spread of the costs of a simplex, as standard deviation, at which the search has converged.
-const CONVERGED: f64 = 1e-5;
+const CONVERGED: f64 = 1e-6;
 
 /// The cost as a function of the logarithms of one loop's gains.
 struct Problem<'a> {

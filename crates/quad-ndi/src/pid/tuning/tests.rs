@@ -70,7 +70,7 @@ fn prop_any_gains_have_a_finite_cost() {
                 derivative: gain,
             };
             let cost = bench.cost(&wild);
-            // Dearer than any tuned loop (0.09 to 0.24).
+            // Dearer than any tuned loop (0.03 to 0.06).
             assert!(
                 cost.is_finite() && cost > 0.3 && cost <= 2e6,
                 "{tuned} {gain}: {cost}"
@@ -132,7 +132,7 @@ fn exact_bad_options_are_named() {
             },
         ),
         (
-            "`step_s` = 0.1 makes 20 samples",
+            "`step_s` = 0.1 makes 32 samples",
             TuningOptions {
                 step_s: 0.1,
                 ..good.clone()
@@ -217,53 +217,58 @@ fn regress_tuned_gains_of_the_nominal_vehicle() {
     let tuned = tune(&Vehicle::qball_x4(), &TuningOptions::default()).unwrap();
     let expected = [
         (
-            0.2397,
+            0.0625,
             PidGains {
-                proportional: 140.5,
-                integral: 42.8,
-                derivative: 52.4,
+                proportional: 119.3,
+                integral: 204.7,
+                derivative: 22.8,
             },
         ),
         (
-            0.0989,
+            0.0496,
             PidGains {
-                proportional: 50.5,
-                integral: 13.2,
-                derivative: 26.5,
+                proportional: 15.9,
+                integral: 11.8,
+                derivative: 6.85,
             },
         ),
         (
-            0.1002,
+            0.0403,
             PidGains {
-                proportional: 50.8,
-                integral: 6.91,
-                derivative: 29.7,
+                proportional: 19.2,
+                integral: 14.6,
+                derivative: 7.94,
             },
         ),
         (
-            0.0923,
+            0.033,
             PidGains {
-                proportional: 8.24,
-                integral: 0.554,
-                derivative: 12.3,
+                proportional: 4.96,
+                integral: 1.56,
+                derivative: 4.78,
             },
         ),
     ];
     for (report, (cost, gains)) in tuned.loops.iter().zip(expected) {
-        // The search stops where costs differ by 1e-5. About a smooth minimum of 0.1 with gains as logarithms that is
-        // some per cent of a gain, and another build rounds its way to another end.
+        // The search stops where costs differ by 1e-6. About a smooth minimum of 0.05 with gains as logarithms that is
+        // a per cent of a gain, and another build rounds its way to another end.
         let near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 0.05;
         assert!((report.cost - cost).abs() < 1e-3, "{report:?}");
         assert!(near(report.gains.proportional, gains.proportional), "{report:?}");
         assert!(near(report.gains.integral, gains.integral), "{report:?}");
         assert!(near(report.gains.derivative, gains.derivative), "{report:?}");
-        // All ends but an odd one agree, so the best of them is no accident.
+        // Another start than the last, which sets out from it, found the best end, so it is no accident; yaw, whose step
+        // meets the limits, has two more valleys, of costs 0.0515 and 0.0526.
         let good = report
             .starts
             .iter()
             .filter(|start| start.cost < 1.01 * report.cost)
             .count();
-        assert!(good >= 3, "{report:?}");
+        assert!(
+            report.starts.iter().all(|start| start.cost < 1.07 * report.cost),
+            "{report:?}"
+        );
+        assert!(good >= 2, "{report:?}");
     }
     let s = &tuned.settings;
     let up = Reference::hold(Vector3::new(0.0, 0.0, -1.0), 0.0);
@@ -275,12 +280,12 @@ fn regress_tuned_gains_of_the_nominal_vehicle() {
         ("x", 5.0, step(s, ahead, 40.0, |r| r.flight.position.x, 1.0)),
     ];
     for (name, designed, m) in metrics {
-        // As fast as the reference models within a tenth, inside the 2 % band after that.
+        // As fast as the reference models within a tenth; the set-point weight leaves the integrals no overshoot to make.
         let settled = m.settling_time_s.unwrap();
         assert!(
-            (settled / designed - 1.0).abs() < 0.1 && m.overshoot < 0.02,
+            (settled / designed - 1.0).abs() < 0.1 && m.overshoot < 0.005,
             "{name}: {m:?}"
         );
-        assert!(m.steady_state_error.abs() < 0.005, "{name}: {m:?}");
+        assert!(m.steady_state_error.abs() < 1e-3, "{name}: {m:?}");
     }
 }

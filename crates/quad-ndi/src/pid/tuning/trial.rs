@@ -16,14 +16,10 @@ pub(super) const FLIGHT: f64 = 4.0;
 /// not pass for an answer to the load.
 const LOAD: f64 = 0.1;
 
-/// Weight of the error under load against that of the step: it is the smaller by its nature.
-const LOAD_WEIGHT: f64 = 2.0;
-
 /// Weight of the total variation of the commands.
 const ACTIVITY_WEIGHT: f64 = 0.005;
 
-/// Overshoot that costs nothing, and the price of the rest, squared. An integral of the error leaves its overshoot
-/// slowly, so half the band that counts as settled is all there is to give.
+/// Overshoot that costs nothing, and the price of the rest, squared. An integral leaves its overshoot slowly, so half the band that counts as settled is all there is to give.
 const FREE_OVERSHOOT: f64 = 0.5 * SETTLING_BAND;
 const OVERSHOOT_WEIGHT: f64 = 300.0;
 
@@ -203,7 +199,7 @@ impl Account {
     /// The cost, given the sum of the four hover commands.
     fn total(&self, hover: f64) -> f64 {
         let cost = self.step_error
-            + LOAD_WEIGHT * self.load_error
+            + self.load_error
             + ACTIVITY_WEIGHT * self.variation / hover
             + OVERSHOOT_WEIGHT * (self.overshoot - FREE_OVERSHOOT).max(0.0).powi(2);
         // A flight to far away may be finite and still dearer than one that broke off.
