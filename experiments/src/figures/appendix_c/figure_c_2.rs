@@ -53,7 +53,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             .line("recorded", series_style(0), series(flown))
     };
     let figure = Figure::columns(2)
-        .panel_size(330.0, 190.0)
+        .panel_size(270.0, 190.0)
         .panel(plan)
         .panel(over_time("North *x*, m", |v| v.x))
         .panel(over_time("East *y*, m", |v| v.y))

@@ -82,6 +82,13 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 }
 
 /// Words that are not rich text: asterisks, carets and underscores stand for themselves.
-pub(super) fn escaped(words: &str) -> String {
-    words.replace('*', "\\*")
+pub(in crate::figures) fn escaped(words: &str) -> String {
+    let mut escaped = String::with_capacity(words.len());
+    for sign in words.chars() {
+        if matches!(sign, '*' | '_' | '^' | '\\') {
+            escaped.push('\\');
+        }
+        escaped.push(sign);
+    }
+    escaped
 }

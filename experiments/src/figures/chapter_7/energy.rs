@@ -41,6 +41,14 @@ pub(super) struct Energy {
 }
 
 impl Energy {
+    /// The same with the energy missed at a floor, J, below which differences are the quadrature's and not the flight's.
+    pub(super) fn resolved(self, floor: f64) -> Self {
+        Self {
+            missed: self.missed.max(floor),
+            ..self
+        }
+    }
+
     /// Whether it is at least as good in both and better in one.
     pub(super) fn dominates(&self, other: &Self) -> bool {
         self.delivered >= other.delivered && self.missed <= other.missed && self != other
