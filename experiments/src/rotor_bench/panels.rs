@@ -79,7 +79,7 @@ pub(crate) fn against_duty(
         Quantity::Thrust => {
             panel
                 .horizontal(MEASURED_THRUST, "")
-                .annotate(WORDS_AT, MEASURED_THRUST, "end of measurements")
+                .annotate(WORDS_AT, MEASURED_THRUST, "end of propeller data")
         }
         Quantity::Torque => panel,
     }

@@ -103,7 +103,9 @@ fn shares(before: &Coverage, after: &Coverage) -> Panel {
         .markers("first guess", series_style(2), points(before))
         .markers("optimised", series_style(0), points(after))
         .vertical(3.0, "needed")
-        .y_range(0.0, 100.0)
+        .x_range(0.7, 8.3)
+        .x_step(1.0)
+        .y_range(-3.0, 103.0)
 }
 
 fn share_table(before: &Coverage, after: &Coverage) -> DataTable {

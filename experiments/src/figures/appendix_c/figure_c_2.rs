@@ -34,6 +34,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let north_east = |v: &nalgebra::Vector3<f64>| (v.y, v.x);
     let plan = Panel::new("East *y*, m", "North *x*, m")
         .equal_aspect()
+        .x_step(1.0)
         .line(
             "commanded",
             reference_style(),

@@ -16,8 +16,8 @@ fn pictured(p: &Vector3<f64>) -> [f64; 3] {
 const DEPTH_M: f64 = 1.5;
 
 /// Half the side of the square that stands for an unseen point, m, and its opacity.
-const UNSEEN_HALF_M: f64 = 0.012;
-const UNSEEN_OPACITY: f64 = 0.3;
+const UNSEEN_HALF_M: f64 = 0.016;
+const UNSEEN_OPACITY: f64 = 0.45;
 
 /// The room, the flight volume with what is missing of its coverage, and the cameras.
 pub(super) fn picture(

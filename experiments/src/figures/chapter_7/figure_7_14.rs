@@ -140,7 +140,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         let minima = surface.minima();
         figure = figure.panel(panel(&level.to_string(), surface));
         columns.push((format!("cost_{}", level.number()), costs(surface)));
-        let words = |m: &Minimum| format!("{:.1}, {:.1}: {:.4}", m.at[0], m.at[1], m.cost);
+        let words = |m: &Minimum| format!("{:.1}, {:.1}: {:.4}", m.at[0], m.at[1], m.cost).replace('-', "−");
         shown.push([
             level.to_string(),
             minima.iter().map(words).collect::<Vec<_>>().join("; "),

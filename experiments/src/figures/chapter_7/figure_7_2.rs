@@ -98,7 +98,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         &arc(spot, (back, across), 0.5, (0.0, link.incidence)),
         Look::solid(INK, 1.2),
     );
-    sketch.label(&(spot + (back + normal).normalize() * 0.62), (8.0, 2.0), "*α*");
+    sketch.label(&(spot + (back + normal).normalize() * 0.62), (21.0, 0.0), "*α*");
     sketch.arrow(&[face.centre, spot], Look::solid(VERMILION, 2.0));
     sketch.label(&((face.centre + spot) / 2.0), (16.0, 6.0), "*s*");
     sketch.label(&(face.centre * 0.5), (14.0, 20.0), "*R*");

@@ -10,9 +10,9 @@ pub(super) const FIGURE_7_16: Item = Item {
     id: "7.16",
     title: "Errors and cost of each level's four-variable solution from *X*_{0} = [5, 0, −5, 0]",
     description: "Errors over their limits and the cost, while each level flies the crossing in 20 s that the simplex found for it. Variables are position \
-                  and velocity along north at both ends, in m and m s^{−1}. Levels 1 and 4 start at *x*_{0} = 0.8 m: nearer to west than 10° (0.88 m at *y* = −5 m), \
-                  which the pan axis doesn't reach, so their beam starts beside the receiver's centre, the spike of (c) and (d) at *t* = 0; the lower one of the \
-                  others is the tracker at rest catching up with a vehicle that moves.",
+                  and velocity along north at both ends, in m and m s^{−1}. The pan axis stops 10° short of west: at \
+                  |*x*_{0}| < 0.88 m, as levels 1 and 4 start, the beam begins beside the receiver's centre, the spike of (c) and (d) at *t* = 0. The lower one of the \
+                  others is the tracker, at rest, catching up with a vehicle that moves.",
     make: Make::Draw(|context| errors(context, Case::Four)),
     ..PLOT
 };
@@ -32,7 +32,7 @@ pub(super) const FIGURE_7_18: Item = Item {
     title: "Errors and cost of each level's four-variable solution from *X*_{0} = [5, −1.5, −8, 1.5]",
     description: "As figure 7.16 for the crossings that the simplex found from another start, which lies farther from the station and moves. \
                   Levels 1 to 3 end on the bound of the box, *x*_{0} = 10 m, beyond the range limit of 8 m and in a poorer minimum than figure 7.16's; their spike at the start is the \
-                  tracker at rest catching up with a vehicle that moves. Level 5 starts in the 10° about west that the pan axis doesn't reach, as in figure 7.16.",
+                  tracker at rest catching up with a vehicle that moves. Level 5 starts at |*x*_{0}| < 0.88 m, out of the pan axis's reach as in figure 7.16.",
     make: Make::Draw(|context| errors(context, Case::FourMoving)),
     ..PLOT
 };

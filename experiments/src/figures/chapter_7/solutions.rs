@@ -77,7 +77,8 @@ fn valley(x: &[f64], first: &[f64]) -> &'static str {
     }
 }
 
-/// Which variables of a solution lie on the bounds of the box, and how far it flies beyond the range limit, in words.
+/// Which variables of a solution lie on the bounds of the box, how far it flies beyond the range limit, and whether the pan axis is at
+/// its stop at the start, in words.
 fn excesses(problem: &Problem, x: &[f64]) -> Result<String, ItemError> {
     let mut words = String::new();
     let bound: Vec<_> = on_bounds(problem, x).map(|d| d.condition.key()).collect();
@@ -89,6 +90,11 @@ fn excesses(problem: &Problem, x: &[f64]) -> Result<String, ItemError> {
     let farthest = instants.iter().map(|h| h.range_m / limit).fold(0.0, f64::max);
     if farthest > 1.0 {
         words += &format!(", at up to {farthest:.2} times the range limit");
+    }
+    let pan = &problem.mission().station.gimbal.pan;
+    let turned = instants.first().map_or(0.0, |h| h.gimbal_rad[0]);
+    if turned <= pan.minimum || turned >= pan.maximum {
+        words += ", starting with the pan axis at its stop";
     }
     Ok(words)
 }
