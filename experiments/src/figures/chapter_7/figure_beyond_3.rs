@@ -227,7 +227,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .note(format!(
             "With the laser always on the two energies add up to what the air lets through, so a crossing that delivers more misses less: the front is a corner, \
              and *Φ*, which weighs no energy at all, leads into it. Switching the laser off moves it little: a crossing may miss nothing that is resolved and \
-             deliver all but {:.2} % of the most. Only for crossings off the front does the share trade one energy for the other.",
+             deliver all but {:.3} % of the most. Only for crossings off the front does the share trade one energy for the other.",
             1e2 * (1.0 - clean / most)
         )))
 }
