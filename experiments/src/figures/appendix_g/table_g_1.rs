@@ -92,3 +92,16 @@ pub(in crate::figures) fn escaped(words: &str) -> String {
     }
     escaped
 }
+
+#[cfg(test)]
+mod tests {
+    use super::escaped;
+    use crate::plot::text;
+
+    #[test]
+    fn prop_escaped_words_stand_for_themselves() {
+        let words = r"B3_figure8_slow.csv, 2*3^4, C:\data";
+        assert_eq!(text::plain(&escaped(words)), words);
+        assert_eq!(text::html(&escaped("a_b")), "a_b");
+    }
+}

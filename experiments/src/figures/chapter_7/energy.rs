@@ -134,6 +134,13 @@ mod tests {
     }
 
     #[test]
+    fn exact_differences_below_the_floor_are_ties() {
+        let all = energies(&[(3.0, 4e-6), (2.0, 2e-6), (4.0, 1e-3)]);
+        let resolved: Vec<Energy> = all.iter().map(|e| e.resolved(1e-5)).collect();
+        assert_eq!(front(&resolved), energies(&[(3.0, 1e-5), (4.0, 1e-3)]));
+    }
+
+    #[test]
     fn exact_energy_of_a_gated_supply() {
         let at = |time_s: f64, received: f64| Power {
             time_s,

@@ -125,3 +125,19 @@ pub(super) fn table(context: &Context, case: Case) -> Result<Drawing, ItemError>
         .note("Positions in m, velocities in m s^{−1}. A start and the solution are the decision vectors; *passes* is the side of the station on which the vehicle crosses *y* = 0, which tells the basins apart.")
         .note(BOUND_NOTE))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quad_dynamics::Level;
+    use wpt_optim::Choice;
+
+    #[test]
+    fn exact_what_lies_on_a_bound_is_marked() {
+        let problem = Problem::nominal(Choice::Four, 20.0, Level::One).unwrap();
+        // Bounds of ±10 m and ±2 m/s; a ten-thousandth of the box away is not on the bound.
+        let x = [10.0, -2.0, 9.998, 0.5];
+        assert_eq!(marked(&problem, &x), "[10.000†, −2.000†, 9.998, 0.500]");
+        assert_eq!(on_bounds(&problem, &x).count(), 2);
+    }
+}
