@@ -18,7 +18,7 @@ function drawHud(context, box, station) {
     inclinationTape(context, box, station, pixelsPerRadian, large);
     if (large) {
         compassRose(context, { x: box.x + 84, y: box.y + box.h - 84, r: 56 }, station);
-        inclinationGauge(context, { x: box.x + box.w - 172, y: box.y + box.h - 44, r: 78 }, station);
+        inclinationGauge(context, { x: box.x + box.w - 184, y: box.y + box.h - 44, r: 78 }, station);
     }
     caption(context, box, station, large);
     context.restore();

@@ -16,7 +16,7 @@ class Plots {
         this.panels = [
             this.panel('Range R, m', (s) => s.range, (limits) => limits.range),
             this.panel('Incidence α, °', (s) => degrees(s.incidence), (limits) => limits.incidence / DEGREE),
-            this.panel('Spot offset |eₛ|, mm', root, (limits) => 1e3 * limits.spot),
+            this.panel('Spot offset |s|, mm', root, (limits) => 1e3 * limits.spot),
         ].filter((panel) => panel.curves.length > 0);
         const move = (event) => {
             if (event.buttons !== 1) return;

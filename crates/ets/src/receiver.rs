@@ -7,9 +7,9 @@
 //! With the emitter at `o`, the beam's unit direction `d` and the receiver's centre at `c`, all in W:
 //!
 //! range `R = |c − o|`; incidence `α`, `cos α = −d · n`; the axis meets the sensor's plane at `o + t d`, `t = (o − c)·n / cos α`, and the
-//! spot offset is `e_s = [e_1, e_2]ᵀ (o + t d − c)`.
+//! spot offset is `s = [e_1, e_2]ᵀ (o + t d − c)`.
 //!
-//! Light from behind meets no plane: `cos α` is held at [`GRAZING`] from below and t at 0, so `e_s` stays finite, grows with
+//! Light from behind meets no plane: `cos α` is held at [`GRAZING`] from below and t at 0, so `s` stays finite, grows with
 //! the violation, and a flag says so. Kinks: there, and of `α` at 0.
 
 use crate::beam::Ray;
@@ -68,7 +68,7 @@ pub struct LinkGeometry<R: Real> {
     pub incidence: R,
     /// Cosine of the angle of incidence.
     pub cos_incidence: R,
-    /// Spot offset `e_s` along `e_1`, `e_2` on the sensor's plane, m.
+    /// Spot offset `s` along `e_1`, `e_2` on the sensor's plane, m.
     pub spot: Vector2<R>,
     /// 1 if the light meets the face from the front, else 0.
     pub facing: R,

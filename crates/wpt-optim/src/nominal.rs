@@ -9,6 +9,8 @@
 //! - The pedestal's zero pan looks east, along the crossing, so that the 20° that cables keep from the pan axis lie to the
 //!   west and not across one of the two ways. Flights that start on one side of the station and pass it on the other do turn
 //!   through the west: they lose the target, and cost some hundred.
+//!   The station's file has the pedestal at 0°, with that stop in the south. A start within 10° of the west, |x_0| < 0.88 m at y = −5 m,
+//!   is out of the beam's reach at first: it costs a moment's spot error, which optima of four and six variables put up with.
 //! - Position loops settle in 5 s, as the trajectories of chapter 6 do.
 
 use crate::condition::{Axis, Condition, Order, Side};
@@ -61,7 +63,8 @@ const NEAR: [f64; 2] = [-8.0, 8.0];
 const WIDE: [f64; 2] = [-10.0, 10.0];
 /// Bounds of velocities, m/s.
 const SPEEDS: [f64; 2] = [-2.0, 2.0];
-/// Bounds of z, m: heights of 1 m to 6 m.
+/// Bounds of z, m: heights of 1 m to 6 m. The lower height is for safety, and every optimum of six variables lies on it: a lower flight is
+/// always nearer and less oblique to a station on the ground.
 const DEPTHS: [f64; 2] = [-6.0, -1.0];
 
 impl Choice {

@@ -7,6 +7,9 @@ use quad_rotor::Cubic;
 use sysid::Fit;
 use sysid::rotor_static::{Quantity, StaticSample, cubic};
 
+/// Where the words about the propeller's measurements stand, left of the curves, %.
+const WORDS_AT: f64 = 6.2;
+
 /// Label of the duty's axis.
 pub(crate) const DUTY: &str = "Duty *ū*, %";
 
@@ -73,7 +76,11 @@ pub(crate) fn against_duty(
         panel = panel.markers(format!("measured, {voltage} V"), series_style(i), points);
     }
     match quantity {
-        Quantity::Thrust => panel.horizontal(MEASURED_THRUST, "end of the propeller's measurements"),
+        Quantity::Thrust => {
+            panel
+                .horizontal(MEASURED_THRUST, "")
+                .annotate(WORDS_AT, MEASURED_THRUST, "end of propeller data")
+        }
         Quantity::Torque => panel,
     }
 }

@@ -64,7 +64,7 @@ pub struct LinkLimits {
     pub range: f64,
     /// Largest angle of incidence α, rad.
     pub incidence: f64,
-    /// Largest spot offset `|e_s|`, m.
+    /// Largest spot offset `|s|`, m.
     pub spot: f64,
 }
 

@@ -14,7 +14,7 @@ pub(super) const ITEM: Item = Item {
     title: "Animation of one quadrotor and one energy transmission system",
     description: "A still at 7.2 s of a flight of 12 s at level 5, flown by c3, at a distance of 3.6 m about a station on a mast of 1 m. The station's \
                   camera has to find the receiver first, 14° off its axis, and then keeps the beam on it; the quadrotor yaws to face the \
-                  station. Beside it range, incidence and offset of the spot on the receiver, and the view of the station's camera. The \
+                  station. Thin and grey: the path still ahead. Beside it range, incidence and offset of the spot on the receiver, and the view of the station's camera. The \
                   animation plays in any browser.",
     kind: Kind::Animation,
     origin: Origin::Simulated,

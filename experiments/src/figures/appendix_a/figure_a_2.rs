@@ -14,7 +14,7 @@ pub(super) const ITEM: Item = Item {
     title: "Animation of quadrotors of levels 1 and 5, each paired with an energy transmission system",
     description: "A still at 7.2 s of one simulation with four agents: Quad1 is a model of level 1 flown by c1, Quad5 one of level 5 flown by c3; \
                   each flies the path of figure A.1 about a station of its own, 5 m apart, and faces it. The stations know only the \
-                  quadrotor that they are paired with.",
+                  quadrotor that they are paired with. Thin and grey: the paths still ahead.",
     kind: Kind::Animation,
     origin: Origin::Simulated,
     claims: &[POINT, FACE],

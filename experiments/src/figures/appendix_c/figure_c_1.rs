@@ -17,7 +17,7 @@ pub(super) const ITEM: Item = Item {
     id: "C.1",
     title: "Coverage of the flight volume by motion-capture cameras",
     description: "Eight cameras of table B.1 on the walls of a room of 10 m by 8 m by 4 m (an assumption), mirrored in four quarters. Inner \
-                  box: the flight volume; dots: parts of it that fewer than three cameras see; pyramids: what a camera sees to \
+                  box: the flight volume; squares: parts of it that fewer than three cameras see; pyramids: what a camera sees to \
                   1.5 m. (a) Every eighth of the walls, 2.5 m up, looking straight across; (b) place, height, pan and tilt \
                   optimised by differential evolution; (c) part of the volume that at least *n* cameras see.",
     kind: Kind::Plot,
@@ -41,7 +41,7 @@ fn draw(_context: &Context) -> Result<Drawing, ItemError> {
     let (seen_before, seen_after) = (task.coverage(&before)?, task.coverage(&after)?);
     let figure = Figure::columns(3)
         .legends(Legends::EachPanel)
-        .panel_size(330.0, 270.0)
+        .panel_size(330.0, 205.0)
         .panel(picture("first guess", &task, &settings, &before, &seen_before))
         .panel(picture("optimised", &task, &settings, &after, &seen_after))
         .panel(shares(&seen_before, &seen_after));
@@ -98,10 +98,14 @@ fn shares(before: &Coverage, after: &Coverage) -> Panel {
     let points = |coverage| (1..=MOST).map(move |n| (f64::from(n), 1e2 * share(coverage, n)));
     Panel::new("Cameras *n*", "Volume seen by at least *n*, %")
         .caption("sightings")
-        .line("first guess", series_style(2), points(before))
-        .line("optimised", series_style(0), points(after))
+        .line("", series_style(2), points(before))
+        .line("", series_style(0), points(after))
+        .markers("first guess", series_style(2), points(before))
+        .markers("optimised", series_style(0), points(after))
         .vertical(3.0, "needed")
-        .y_range(0.0, 100.0)
+        .x_range(0.7, 8.3)
+        .x_step(1.0)
+        .y_range(-3.0, 103.0)
 }
 
 fn share_table(before: &Coverage, after: &Coverage) -> DataTable {

@@ -34,6 +34,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let north_east = |v: &nalgebra::Vector3<f64>| (v.y, v.x);
     let plan = Panel::new("East *y*, m", "North *x*, m")
         .equal_aspect()
+        .x_step(1.0)
         .line(
             "commanded",
             reference_style(),
@@ -53,7 +54,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             .line("recorded", series_style(0), series(flown))
     };
     let figure = Figure::columns(2)
-        .panel_size(330.0, 190.0)
+        .panel_size(270.0, 190.0)
         .panel(plan)
         .panel(over_time("North *x*, m", |v| v.x))
         .panel(over_time("East *y*, m", |v| v.y))

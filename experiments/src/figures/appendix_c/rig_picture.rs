@@ -15,6 +15,10 @@ fn pictured(p: &Vector3<f64>) -> [f64; 3] {
 /// Depth to which a camera's pyramid is drawn, m.
 const DEPTH_M: f64 = 1.5;
 
+/// Half the side of the square that stands for an unseen point, m, and its opacity.
+const UNSEEN_HALF_M: f64 = 0.016;
+const UNSEEN_OPACITY: f64 = 0.45;
+
 /// The room, the flight volume with what is missing of its coverage, and the cameras.
 pub(super) fn picture(
     caption: &str,
@@ -62,6 +66,9 @@ pub(super) fn picture(
         .iter()
         .zip(&coverage.seen_by)
         .filter(|(_, n)| **n < settings.needed);
+    for (p, _) in unseen {
+        space = space.surface(missing.colour, UNSEEN_OPACITY, square(p));
+    }
     space
         .markers(
             "cameras",
@@ -71,8 +78,14 @@ pub(super) fn picture(
         .markers(
             "seen by fewer than three",
             Look::solid(missing.colour, 0.6).marked(Marker::Dot),
-            unseen.map(|(p, _)| pictured(p)),
+            [],
         )
+}
+
+/// A small level square about a point: many of them overlap, and the room behind stays visible.
+fn square(p: &Vector3<f64>) -> [[f64; 3]; 4] {
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(a, b)| pictured(&(p + UNSEEN_HALF_M * Vector3::new(a, b, 0.0))))
 }
 
 /// The twelve edges of a box.

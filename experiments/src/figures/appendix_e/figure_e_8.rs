@@ -4,6 +4,7 @@ use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::plot::style::{INK, Look};
 use crate::plot::{Figure, Panel, series_style};
 use crate::rotor_bench::panels::{DUTY, label, shown};
 use crate::rotor_bench::{PLACES, RotorBench};
@@ -70,7 +71,11 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 }
 
 fn panel(tests: &[Vec<StaticSample>], quantity: Quantity) -> Result<Panel, ItemError> {
-    let mut panel = Panel::new(DUTY, label(quantity)).x_range(6.0, 8.9);
+    let mut panel = Panel::new(DUTY, label(quantity)).x_range(6.0, 8.9).line(
+        "lines of table 4.5",
+        Look::solid(INK, 1.6),
+        [],
+    );
     for (i, samples) in tests.iter().enumerate() {
         let gains = linear_gains(samples)?;
         let gain = match quantity {

@@ -3,7 +3,7 @@
 use crate::item::Item;
 
 pub(super) mod crossing;
-mod table_g_1;
+pub(super) mod table_g_1;
 mod table_g_2;
 mod table_g_3;
 mod table_g_4;

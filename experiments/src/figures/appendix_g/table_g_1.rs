@@ -82,6 +82,26 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 }
 
 /// Words that are not rich text: asterisks, carets and underscores stand for themselves.
-pub(super) fn escaped(words: &str) -> String {
-    words.replace('*', "\\*")
+pub(in crate::figures) fn escaped(words: &str) -> String {
+    let mut escaped = String::with_capacity(words.len());
+    for sign in words.chars() {
+        if matches!(sign, '*' | '_' | '^' | '\\') {
+            escaped.push('\\');
+        }
+        escaped.push(sign);
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::escaped;
+    use crate::plot::text;
+
+    #[test]
+    fn prop_escaped_words_stand_for_themselves() {
+        let words = r"B3_figure8_slow.csv, 2*3^4, C:\data";
+        assert_eq!(text::plain(&escaped(words)), words);
+        assert_eq!(text::html(&escaped("a_b")), "a_b");
+    }
 }

@@ -68,9 +68,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .iter()
         .filter_map(|(level, fit)| of_level(*level).map(|c| (c.features as f64, *fit)));
     let measured: Vec<(f64, f64)> = measured.collect();
-    agreement = agreement
-        .line("recorded flight", MEASURED, measured.iter().copied())
-        .markers("", MEASURED, measured);
+    agreement =
+        agreement
+            .line("", MEASURED, measured.iter().copied())
+            .markers("recorded flight", MEASURED, measured);
     let figure = Figure::columns(2)
         .panel(agreement)
         .panel(cost)

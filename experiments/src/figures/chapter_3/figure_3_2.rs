@@ -18,7 +18,7 @@ pub(super) const ITEM: Item = Item {
     title: "Rotor outputs against rigid-body forces",
     description: "Which rotors speed up (+, larger) and slow down (−, smaller) for a positive collective, lateral, \
                   longitudinal and yaw pseudo-input: the columns of *C*^{−1} of the nominal vehicle, seen from above, nose up \
-                  the page. Arcs show the spin.",
+                  the page; 1 rear, 2 front, 3 left, 4 right. Arcs show the spin.",
     kind: Kind::Diagram,
     origin: Origin::Derived,
     claims: &[SIGNS],
@@ -125,6 +125,9 @@ fn panel(diagram: &mut Diagram, centre: Point, vehicle: &Vehicle, commands: &[f6
         };
         diagram.circle(place(i), radius, fill);
         diagram.centred(place(i), sign);
+        // Beside the rotor, clear of arms and arcs.
+        let beside = radius * std::f64::consts::FRAC_1_SQRT_2 + 7.0;
+        diagram.centred(place(i).offset(beside, beside), &(i + 1).to_string());
         // Clockwise seen from above is clockwise on this page.
         let (from, to) = if vehicle.rotors[i].spin.sign() > 0.0 {
             (140.0, 40.0)
@@ -143,5 +146,8 @@ fn panel(diagram: &mut Diagram, centre: Point, vehicle: &Vehicle, commands: &[f6
             Look::solid(colour, 1.2),
         );
     }
+    let nose = centre.offset(-58.0, -52.0);
+    diagram.arrow(&[nose, nose.offset(0.0, -24.0)], Look::solid(INK, 1.0));
+    diagram.centred(nose.offset(0.0, 10.0), "nose");
     diagram.centred(centre.offset(0.0, 108.0), name);
 }

@@ -17,10 +17,11 @@ use sysid::rotor_static::Quantity;
 pub(super) const ITEM: Item = Item {
     id: "4.11",
     title: "Rotor dynamics: data against transfer functions for a step",
-    description: "Transfer functions identified from a pseudo-random sequence about hover (virtual thrust stand, nominal rotor, \
+    description: "(a), (b) Transfer functions identified from a pseudo-random sequence about hover (virtual thrust stand, nominal rotor, \
                   10 s at 200 Hz), against a step they were not fitted to: thrust, and the reaction torque, which begins with the \
-                  spin-up. Below, the autocorrelation of the fits' residuals with the band that holds white ones 95 times in a \
-                  hundred, and, where a copy of the data is at hand, the step responses of a real motor.",
+                  spin-up. (c) The autocorrelation of the fits' residuals with the band that holds white ones 95 times in a \
+                  hundred. (d) Where a copy of the data is at hand, a real motor (NTNU, 50 Hz) with a first-order fit to each step; its source states no unit of \
+                  speed.",
     kind: Kind::Plot,
     origin: Origin::VirtualLaboratory,
     claims: &[STATED, WHITE, ORDER],

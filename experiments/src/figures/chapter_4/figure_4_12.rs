@@ -15,7 +15,9 @@ pub(super) const ITEM: Item = Item {
     description: "A Crazyflie flies a figure of eight at 0.5 m/s under motion capture (NanoBench, Ullah and Baca 2026); its recorded motor \
                   commands and battery voltage drive levels 2 to 5. Thrust curve and rotors were identified on other flights (ARPL, \
                   Eschmann, Albani and Loianno 2024); effective mass, inertia, lag and trim of this vehicle *on this flight*. \
-                  Lines are one-step predictions, means over 0.05 s, of which 4 of 13 s are drawn.",
+                  Lines are one-step predictions, means over 0.05 s, of which 4 of 13 s are drawn; fits are level 5's over all 13 s. \
+                  In (d) the levels lie some 10 rad s^{−2} above the measurement: the motors' commands hold a moment of the rotors in sideways flow, \
+                  which none of the levels has.",
     kind: Kind::Plot,
     origin: Origin::MeasuredAndSimulated,
     claims: &[STATED, VERTICAL, ROTATION],

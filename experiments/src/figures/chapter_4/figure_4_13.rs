@@ -5,6 +5,7 @@ use super::flights::{self, FITTED, UNSEEN};
 use super::replays;
 use crate::claim::Claim;
 use crate::drawing::Drawing;
+use crate::figures::escaped;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 
 /// The figure.
@@ -32,8 +33,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             UNFITTED,
             unfitted,
             format!(
-                "fitted on the ARPL flights and on {FITTED} ({:.2} V on average), drawn: {UNSEEN} ({:.2} V)",
+                "fitted on the ARPL flights and on {} ({:.2} V on average), drawn: {} ({:.2} V)",
+                escaped(FITTED),
                 study.calibration.voltage,
+                escaped(UNSEEN),
                 mean_voltage(&study)
             ),
         )

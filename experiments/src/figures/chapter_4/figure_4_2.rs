@@ -17,7 +17,7 @@ pub(super) const ITEM: Item = Item {
     description: "The vehicle, in a cage, stands upright on three scales. Their forces *F*_{i} (vermilion, to scale) and the \
                   weight *m g* at the centre of mass G (blue, to a third of that scale) are those of the virtual laboratory without \
                   sensor errors; C is the centre of pressure below G. The cage is a stand-in, an icosahedron of radius 0.35 m; the \
-                  centre of mass is drawn ten times as far from the middle as it is.",
+                  centre of mass is drawn ten times as far from the middle in the horizontal as it is.",
     kind: Kind::Diagram,
     origin: Origin::VirtualLaboratory,
     claims: &[BALANCE],

@@ -31,7 +31,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let truth = test.vehicle.airframe.centre_of_mass;
     let mut space = Space::new("Forward *x*_{B}, mm", "Left −*y*_{B}, mm", "Up −*z*_{B}, mm")
         .equal_aspect()
-        .without_shadows();
+        .without_shadows()
+        .view(supports::VIEW);
     let mut sideways = 0.0_f64;
     let mut missed = 0.0_f64;
     for (i, (placing, line)) in test.placings.iter().zip(&test.found.lines).enumerate() {

@@ -17,7 +17,8 @@ pub(super) const ITEM: Item = Item {
     description: "Wind-tunnel measurements of the Qball-X4's propeller, APC slow flyer 10×4.7 (UIUC Propeller Data Site; Brandt \
                   and Selig, AIAA 2011-1255), at *ρ* = 1.225 kg m^{−3}: thrust, torque and their coefficients against speed, with \
                   one constant coefficient and with one that follows the speed (bands: 95 %); right, the coefficients in an axial \
-                  stream against the advance ratio, with the line at small ratios whose slope damps a climbing rotor.",
+                  stream against the advance ratio, with the line at small ratios whose slope damps a climbing rotor: through the points \
+                  up to *J* = 0.3 at 4000 rpm, about hover, and the static one at that speed, which is its point at *J* = 0.",
     kind: Kind::Plot,
     origin: Origin::Measured,
     claims: &[RESIDUALS, QUADRATIC, INTERVALS, DEPENDENCE],

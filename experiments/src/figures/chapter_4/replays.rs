@@ -5,6 +5,7 @@ use crate::data::DataTable;
 use crate::drawing::{DisplayTable, Drawing};
 use crate::item::ItemError;
 use crate::plot::{Figure, Look, Panel, level_name, level_style};
+use quad_dynamics::Level;
 use sysid::validation::{AVERAGE_S, Agreement, Prediction};
 
 /// The stretch that is drawn, s: all of it would be too dense to read.
@@ -105,7 +106,18 @@ fn identification(study: &Study) -> String {
 }
 
 fn panel(study: &Study, axis: usize, column: usize, label: &str) -> Result<Panel, ItemError> {
-    let mut panel = Panel::new("Time *t*, s", label).x_range(DRAWN.start, DRAWN.end);
+    let fit = {
+        let agreement = &study.run(Level::Five, Prediction::OneStep)?.agreement;
+        let axes = if column == 0 {
+            &agreement.acceleration
+        } else {
+            &agreement.angular_acceleration
+        };
+        fit_words(&axes[axis])
+    };
+    let mut panel = Panel::new("Time *t*, s", label)
+        .caption(format!("level 5 fits {fit} %"))
+        .x_range(DRAWN.start, DRAWN.end);
     for level in LEVELS {
         let replay = &study.run(level, Prediction::OneStep)?.replay;
         let series = if column == 0 {
@@ -171,12 +183,16 @@ fn table(study: &Study) -> DisplayTable {
     table
 }
 
-/// `31 (0.36)`: fit % and Theil's U.
-pub(super) fn cell(agreement: &Agreement) -> String {
+fn fit_words(agreement: &Agreement) -> String {
     let fit = agreement
         .fit_percent
         .map_or("–".to_owned(), |f| format!("{f:.0}"));
-    format!("{} ({:.2})", fit.replace('-', "−"), agreement.theil)
+    fit.replace('-', "−")
+}
+
+/// `31 (0.36)`: fit % and Theil's U.
+pub(super) fn cell(agreement: &Agreement) -> String {
+    format!("{} ({:.2})", fit_words(agreement), agreement.theil)
 }
 
 fn agreement(study: &Study, wanted: impl Fn(Prediction) -> bool) -> DataTable {

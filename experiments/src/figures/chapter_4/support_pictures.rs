@@ -14,6 +14,7 @@ fn space() -> Space {
     Space::new("*x*_{B}, mm", "−*y*_{B}, mm", "−*z*_{B}, mm")
         .equal_aspect()
         .without_shadows()
+        .view(supports::VIEW)
 }
 
 const FOUND: Look = Look::solid(INK, 1.8).marked(Marker::Diamond);

@@ -5,7 +5,7 @@ use crate::data::{Cell, DataTable};
 use crate::flight::NOMINAL_VEHICLE;
 use crate::item::{Context, ItemError};
 use crate::plot::Space;
-use crate::plot::space::Point3;
+use crate::plot::space::{Point3, View};
 use nalgebra::Vector3;
 use quad_dynamics::Vehicle;
 use serde::Serialize;
@@ -20,6 +20,12 @@ const SEED: u64 = 4;
 pub(super) const CAGE_RADIUS_M: f64 = 0.35;
 /// Faces of the cage on which the vehicle stands: upright, and tilted by 70.5°.
 const FACES: [usize; 2] = [0, 5];
+
+/// From where figures 4.3 and 4.4 are seen: neither line along the other, no support before another.
+pub(super) const VIEW: View = View {
+    azimuth_deg: -42.0,
+    elevation_deg: 24.0,
+};
 
 /// Everything that determines the test.
 #[derive(Serialize)]

@@ -6,7 +6,8 @@ use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use crate::plot::{Figure, Panel, level_name, level_style, series_style};
+use crate::plot::style::{INK, Look};
+use crate::plot::{Figure, Panel, level_name, level_style};
 use quad_dynamics::Level;
 use sifre::quadrotor::LevelRule;
 use sifre::steps;
@@ -86,15 +87,17 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             .collect::<Vec<_>>()
     };
     let (coarse, fine) = (part.clone()(2.0), part(5.0));
-    let from_station = Panel::new("Time *t*, s", "From the station, m")
+    let from_station = Panel::new("Time *t*, s", "Distance from the station, m")
         .y_include(0.0)
         .line(level_name(2), level_style(2), coarse)
         .line(level_name(5), level_style(5), fine);
-    let from_level_5 = Panel::new("Time *t*, s", "From level 5, mm").y_include(0.0).line(
-        "",
-        series_style(0),
-        drawn.iter().map(|&k| (time(k), apart[k])),
-    );
+    let from_level_5 = Panel::new("Time *t*, s", "Distance from level 5, mm")
+        .y_include(0.0)
+        .line(
+            "",
+            Look::solid(INK, 1.8),
+            drawn.iter().map(|&k| (time(k), apart[k])),
+        );
     let figure = Figure::columns(1)
         .panel(from_station)
         .panel(from_level_5)

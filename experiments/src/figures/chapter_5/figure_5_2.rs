@@ -16,7 +16,8 @@ pub(super) const ITEM: Item = Item {
     title: "Models available to describe the system",
     description: "The five levels (left) and some of the models between and above them that phenomena make (right, grey), drawn from the \
                   declarations in the code. An arrow leads from a model to one that contains all it contains, and more, with none of \
-                  these in between; where no way leads along the arrows, neither model is higher. Parts in italics switch on and off.",
+                  these in between; where no way leads along the arrows, neither model is higher. Parts in italics switch on and off. \
+                  Solid arrows: the chain of the levels; dashed: all others. White: linear; blue: rigid body and lag; green: identified rotors; orange: mechanistic rotors.",
     kind: Kind::Diagram,
     origin: Origin::Derived,
     claims: &[ORDERED, PARTIAL],

@@ -18,8 +18,8 @@ use std::sync::Arc;
 pub(super) const FIGURE_7_26: Item = Item {
     id: "7.26",
     title: "Each level's solution flown at every level",
-    description: "The six-variable solutions of figure 7.23. (a) The cost *Φ* of the solution of one level (row) flown at another (column). (b) How much dearer it \
-                  is there than the column's own solution, in thousandths.",
+    description: "The six-variable solutions of figure 7.23, all on the bound *z*_{0} = *z*_{f} = −1 m. (a) The cost *Φ* of the solution of one level (row) flown at another \
+                  (column). (b) How much dearer it is there than the column's own solution, in thousandths. Shades of both are the numbers of (b), white at zero.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[OWN_IS_BEST],
@@ -31,7 +31,8 @@ pub(super) const FIGURE_7_27: Item = Item {
     id: "7.27",
     title: "Level 1's optimum flown at every level",
     description: "The six-variable solution of level 1 (figure 7.23) flown by all levels: its cost rate and how far each is from where level 1 is at the same time; \
-                  the crossing in space and from above.",
+                  the crossing in space and from above. It flies on the bound, 1 m high, and starts within the 10° about west that the pan axis doesn't reach (0.88 m at \
+                  *y* = −5 m): the spike of (c) at *t* = 0.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[RISES],
@@ -68,13 +69,13 @@ fn shade(t: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(230.0), mix(159.0), mix(0.0))
 }
 
-/// A matrix with its numbers, the first row at the bottom.
-fn grid(caption: &str, values: &[Vec<f64>], digits: i32) -> Panel {
+/// A matrix with its numbers and the values that shade it, the first row at the bottom.
+fn grid(caption: &str, values: &[Vec<f64>], shades: &[Vec<f64>], digits: i32) -> Panel {
     let mut panel = Panel::new("Flown at level", "Solution of level")
         .caption(caption)
         .x_categories(Level::ALL.map(|l| l.number().to_string()))
         .equal_aspect();
-    let shades = values.to_vec();
+    let shades = shades.to_vec();
     panel = panel
         .kuva(move || {
             Plot::Heatmap(
@@ -116,8 +117,13 @@ fn matrix(context: &Context) -> Result<Drawing, ItemError> {
     let figure = Figure::columns(2)
         .legends(Legends::None)
         .panel_size(300.0, 300.0)
-        .panel(grid("cost *Φ*", &costs, 3))
-        .panel(grid("excess over the level's own solution, 10^{−3}", &dearer, 1));
+        .panel(grid("cost *Φ*", &costs, &dearer, 4))
+        .panel(grid(
+            "excess over the level's own solution, 10^{−3}",
+            &dearer,
+            &dearer,
+            2,
+        ));
     let mut data = DataTable::new(["solution_of", "flown_at", "cost", "excess"]);
     for (i, row) in costs.iter().enumerate() {
         for (j, &cost) in row.iter().enumerate() {

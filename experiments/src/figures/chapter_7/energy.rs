@@ -41,6 +41,14 @@ pub(super) struct Energy {
 }
 
 impl Energy {
+    /// The same with the energy missed at a floor, J, below which differences are the quadrature's and not the flight's.
+    pub(super) fn resolved(self, floor: f64) -> Self {
+        Self {
+            missed: self.missed.max(floor),
+            ..self
+        }
+    }
+
     /// Whether it is at least as good in both and better in one.
     pub(super) fn dominates(&self, other: &Self) -> bool {
         self.delivered >= other.delivered && self.missed <= other.missed && self != other
@@ -123,6 +131,13 @@ mod tests {
     fn exact_front_of_five_points() {
         let all = energies(&[(3.0, 3.0), (1.0, 1.0), (2.0, 3.0), (2.0, 2.0), (0.5, 1.0)]);
         assert_eq!(front(&all), energies(&[(1.0, 1.0), (2.0, 2.0), (3.0, 3.0)]));
+    }
+
+    #[test]
+    fn exact_differences_below_the_floor_are_ties() {
+        let all = energies(&[(3.0, 4e-6), (2.0, 2e-6), (4.0, 1e-3)]);
+        let resolved: Vec<Energy> = all.iter().map(|e| e.resolved(1e-5)).collect();
+        assert_eq!(front(&resolved), energies(&[(3.0, 1e-5), (4.0, 1e-3)]));
     }
 
     #[test]

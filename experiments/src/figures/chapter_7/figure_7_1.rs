@@ -19,9 +19,9 @@ use kuva::render::plots::Plot;
 pub(super) const ITEM: Item = Item {
     id: "7.1",
     title: "Overfill of the sensor",
-    description: "Light that passes the sensor is a hazard. Above: the sensor seen along *e*_{2}, under a beam of radius *w* with spot offset *e*_{s} and \
-                  incidence *α*. (a) Irradiance on the plane of the nominal sensor at the range limit, 8 m, *e*_{s} = [0.12, 0.03] m, \
-                  *α* = 40°; contours at 1, 10, 30, 50, 70 and 90 % of the peak. (b) Missed power against the spot offset along *e*_{1} for several angles of incidence.",
+    description: "Light that passes the sensor is a hazard. Above: the sensor seen along *e*_{2}, under a beam of radius *w* with spot offset *s* and \
+                  incidence *α*. (a) Irradiance on the plane of the nominal sensor at the range limit, 8 m, *s* = [0.12, 0.03] m, \
+                  *α* = 40°; contours at 1, 10, 30, 50, 70 and 90 % of the peak; what lies right of the edge is missed. (b) Missed power against the spot offset along *e*_{1} for several angles of incidence.",
     kind: Kind::Plot,
     origin: Origin::Derived,
     claims: &[GROWS],
@@ -37,6 +37,9 @@ const MAP_SPOT: [f64; 2] = [0.12, 0.03];
 const MAP_INCIDENCE_DEG: f64 = 40.0;
 /// Half the side of the map about the spot, m.
 const MAP: f64 = 0.075;
+/// Where words stand beside the edge, m.
+const MISSED: [f64; 2] = [0.1725, 0.09];
+const CAUGHT: [f64; 2] = [0.1, 0.09];
 /// Contours of the map, shares of the peak.
 const CONTOURS: [f64; 6] = [0.01, 0.1, 0.3, 0.5, 0.7, 0.9];
 
@@ -49,7 +52,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     };
     let offsets = sweep(0.0, 0.25, 125);
     let mut columns = vec![("spot_offset_m".to_owned(), offsets.clone())];
-    let mut lines = Panel::new("Spot offset *e*_{s1}, m", "Missed power, W")
+    let mut lines = Panel::new("Spot offset *s*_{1}, m", "Missed power, W")
         .log_y()
         .x_range(0.0, 0.25)
         .y_range(1e-5, 10.0)
@@ -113,4 +116,6 @@ fn map(station: &Station) -> Panel {
         .y_range(MAP_SPOT[1] - MAP, MAP_SPOT[1] + MAP)
         .x_step(0.05)
         .y_step(0.05)
+        .annotate(MISSED[0], MISSED[1], "missed")
+        .annotate(CAUGHT[0], CAUGHT[1], "on the sensor")
 }

@@ -5,12 +5,12 @@ use crate::claim::Claim;
 use crate::data::{Cell, DataTable};
 use crate::drawing::{DisplayTable, Drawing};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use crate::plot::figure::Legends;
 use crate::plot::style::{BLUE, INK, Look, Marker};
 use crate::plot::{Figure, Panel};
-use kuva::plot::ContourPlot;
+use kuva::plot::{ColorMap, ContourPlot};
 use kuva::render::plots::Plot;
 use quad_dynamics::Level;
+use std::sync::Arc;
 use wpt_optim::{Choice, Minimum, Surface};
 
 /// The figure.
@@ -20,8 +20,9 @@ pub(super) const ITEM: Item = Item {
     description: "The cost *Φ* of crossing the station's field from [*x*_{0}, −5 m] to [*x*_{f}, 5 m] in 20 s, 3 m high, from rest to rest, \
                   over both variables: the ideal cost of a vehicle and a beam that are exactly where they should be, and the cost flown at each \
                   level. Contours at 1.15, 1.2, 1.3, 1.5, 2, 3, 10 and 30; dots are minima of the grid with their costs. The station stands at the origin: paths of \
-                  the falling diagonal pass over it. Empty corners are a plateau near 100: there the vehicle starts on one side and passes the station on \
-                  the other, through the west, where the cables stop the pan axis and the target is lost.",
+                  the falling diagonal pass over it. Grey corners are a plateau near 100: there the vehicle starts on one side and passes the station on \
+                  the other, through the west, where the cables stop the pan axis and the target is lost. The stop, ±170° of pan, lies in the west because the optimisation \
+                  turns the pedestal to 90°, zero pan to the east; with the heading of table G.2, 0°, it would lie in the south.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[SEVERAL],
@@ -33,25 +34,47 @@ const SEVERAL: Claim = Claim::holds("several local minima");
 /// Contours of the cost.
 const CONTOURS: [f64; 8] = [1.15, 1.2, 1.3, 1.5, 2.0, 3.0, 10.0, 30.0];
 
-/// Distance of a minimum's number above its dot, m.
-const LABEL_M: f64 = 0.4;
+/// Names and fills of the bands between contours, the cheapest first; the last is the plateau.
+const BANDS: [(&str, &str); 9] = [
+    ("*Φ* below 1.15", "#fbeec2"),
+    ("to 1.2", "#eef5fa"),
+    ("to 1.3", "#dceaf4"),
+    ("to 1.5", "#c8dfee"),
+    ("to 2", "#b1d2e7"),
+    ("to 3", "#97c3df"),
+    ("to 10", "#7bb2d6"),
+    ("to 30", "#5c9fca"),
+    ("above", "#a6a6a6"),
+];
+
+/// Where a minimum's number stands, from its dot, m: where the valley is wide.
+const LABEL_M: [f64; 2] = [0.4, -1.75];
 
 const DOT: Look = Look::solid(INK, 1.4).marked(Marker::Circle);
 
-/// A panel of costs over the two variables.
-fn panel(name: &str, first: &[f64], second: &[f64], costs: &[f64], minima: &[Minimum]) -> Panel {
-    let grid: Vec<Vec<f64>> = costs
-        .chunks(first.len())
+/// The costs of a surface's nodes.
+fn costs(surface: &Surface) -> Vec<f64> {
+    surface.outcomes.iter().map(|o| o.cost).collect()
+}
+
+/// A panel of costs over the two variables, with their minima.
+fn panel(name: &str, surface: &Surface) -> Panel {
+    let minima = surface.minima();
+    let (xs, ys) = (surface.first.clone(), surface.second.clone());
+    let grid: Vec<Vec<f64>> = costs(surface)
+        .chunks(xs.len())
         .map(|row| row.iter().map(|cost| cost.min(CEILING).log10()).collect())
         .collect();
-    let (xs, ys) = (first.to_vec(), second.to_vec());
     let contours = CONTOURS.map(f64::log10);
+    let shades = bands(&grid);
     let [low, high] = [xs[0], xs[xs.len() - 1]];
     let panel = Panel::new("*x*_{0}, m", "*x*_{f}, m")
         .kuva(move || {
             let plot = ContourPlot::new()
                 .with_grid(grid.clone(), xs.clone(), ys.clone())
                 .with_levels(&contours)
+                .with_filled()
+                .with_colormap(shades.clone())
                 .with_line_color(BLUE)
                 .with_line_width(1.0);
             Plot::Contour(plot)
@@ -63,16 +86,39 @@ fn panel(name: &str, first: &[f64], second: &[f64], costs: &[f64], minima: &[Min
         .y_step(4.0)
         .caption(name);
     minima.iter().fold(panel, |panel, m| {
-        panel.annotate(m.at[0], m.at[1] + LABEL_M, format!("{:.3}", m.cost))
+        panel.annotate(
+            m.at[0] + LABEL_M[0],
+            m.at[1] + LABEL_M[1],
+            format!("{:.3}", m.cost),
+        )
+    })
+}
+
+/// The fills of the bands as a map from 0 to 1 over the range of a grid, as kuva asks for it.
+fn bands(grid: &[Vec<f64>]) -> ColorMap {
+    let all = || grid.iter().flatten().copied();
+    let low = all().fold(f64::INFINITY, f64::min);
+    let high = all().fold(f64::NEG_INFINITY, f64::max);
+    ColorMap::Custom(Arc::new(move |t| {
+        // A hair up: a contour counts to the band above it.
+        let value = low + t * (high - low) + 1e-9;
+        let below = CONTOURS.iter().filter(|contour| contour.log10() <= value).count();
+        BANDS[below].1.to_owned()
+    }))
+}
+
+/// The bands in the legend.
+fn with_legend(panel: Panel) -> Panel {
+    BANDS.iter().fold(panel, |panel, (name, fill)| {
+        panel.markers(*name, Look::solid(fill, 1.0).marked(Marker::Square), [])
     })
 }
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let surfaces = surfaces(context)?;
     let ideal = ideal(context, &surfaces[0])?;
-    let costs = |s: &Surface| s.outcomes.iter().map(|o| o.cost).collect::<Vec<f64>>();
     let (first, second) = (&surfaces[0].first, &surfaces[0].second);
-    let mut figure = Figure::columns(3).panel(panel("ideal", first, second, &ideal, &[]));
+    let mut figure = Figure::columns(3).panel(with_legend(panel("ideal", &ideal)));
     let mut columns = vec![
         (
             "x_0_m".to_owned(),
@@ -82,7 +128,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             "x_f_m".to_owned(),
             second.iter().flat_map(|&b| vec![b; first.len()]).collect(),
         ),
-        ("cost_ideal".to_owned(), ideal),
+        ("cost_ideal".to_owned(), costs(&ideal)),
     ];
     let mut shown = DisplayTable::new([
         "Level",
@@ -92,9 +138,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let mut counts = Vec::new();
     for (level, surface) in Level::ALL.into_iter().zip(surfaces.iter()) {
         let minima = surface.minima();
-        figure = figure.panel(panel(&level.to_string(), first, second, &costs(surface), &minima));
+        figure = figure.panel(panel(&level.to_string(), surface));
         columns.push((format!("cost_{}", level.number()), costs(surface)));
-        let words = |m: &Minimum| format!("{:.1}, {:.1}: {:.4}", m.at[0], m.at[1], m.cost);
+        let words = |m: &Minimum| format!("{:.1}, {:.1}: {:.4}", m.at[0], m.at[1], m.cost).replace('-', "−");
         shown.push([
             level.to_string(),
             minima.iter().map(words).collect::<Vec<_>>().join("; "),
@@ -104,7 +150,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     }
     let data: Vec<(&str, &[f64])> = columns.iter().map(|(n, v)| (n.as_str(), v.as_slice())).collect();
     let least = counts.iter().min().copied().unwrap_or(0);
-    Ok(Drawing::picture(figure.panel_size(200.0, 200.0).legends(Legends::None).draw())
+    Ok(Drawing::picture(figure.panel_size(200.0, 200.0).draw())
         .beneath(shown)
         .data(DataTable::from_columns(&data))
         .named_data("minima", minima_table(&surfaces))
@@ -117,15 +163,18 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 }
 
 /// The ideal cost at the nodes of a surface.
-fn ideal(context: &Context, surface: &Surface) -> Result<Vec<f64>, ItemError> {
+fn ideal(context: &Context, surface: &Surface) -> Result<Surface, ItemError> {
     let problem = problem(context, Choice::Two, MAPPED_S, Level::Two)?;
-    let mut costs = Vec::with_capacity(surface.outcomes.len());
+    let mut outcomes = Vec::with_capacity(surface.outcomes.len());
     for &b in &surface.second {
         for &a in &surface.first {
-            costs.push(problem.ideal(&[a, b])?.cost);
+            outcomes.push(problem.ideal(&[a, b])?);
         }
     }
-    Ok(costs)
+    Ok(Surface {
+        outcomes,
+        ..surface.clone()
+    })
 }
 
 fn minima_table(surfaces: &[Surface]) -> DataTable {

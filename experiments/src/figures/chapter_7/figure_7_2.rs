@@ -18,7 +18,7 @@ pub(super) const ITEM: Item = Item {
     id: "7.2",
     title: "Geometry of the quadrotor and ETS agents",
     description: "Range *R* from the emitter to the sensor's centre, angle of incidence *α* between beam and sensor normal *n*, and spot offset \
-                  *e*_{s} on the sensor's plane, with the frames W, E and B. Drawn from the geometry types, the vehicle larger than true and \
+                  *s* on the sensor's plane, with the frames W, E and B. Drawn from the geometry types, the vehicle larger than true and \
                   the beam off target so that the quantities can be seen.",
     kind: Kind::Diagram,
     origin: Origin::Schematic,
@@ -66,11 +66,12 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         ARROW,
     );
     glyphs::quadrotor(&mut sketch, &vehicle, position, &r_wb, MAGNIFIED);
-    glyphs::face(&mut sketch, &face, &ets.receiver.aperture);
     sketch.axes(position, &r_wb, 0.52, ["", "", "*z*_{B}"], Look::solid(BLUE, 1.4));
     let right = r_wb.column(1).into_owned();
     sketch.arrow(&[position, position + right * 0.52], Look::solid(BLUE, 1.4));
     sketch.label(&(position + right * 0.52), (-4.0, 20.0), "*y*_{B}");
+    // The sensor stands in front of the body.
+    glyphs::face(&mut sketch, &face, &ets.receiver.aperture);
     sketch.line(&[ray.origin, face.centre], CONSTRUCTION);
     sketch.arrow(
         &[ray.origin + ray.direction * 0.34, spot],
@@ -94,12 +95,12 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let back = -ray.direction;
     let across = (normal - back * normal.dot(&back)).normalize();
     sketch.line(
-        &arc(spot, (back, across), 0.72, (0.0, link.incidence)),
+        &arc(spot, (back, across), 0.5, (0.0, link.incidence)),
         Look::solid(INK, 1.2),
     );
-    sketch.label(&(spot + (back + normal).normalize() * 0.86), (23.0, -5.0), "*α*");
+    sketch.label(&(spot + (back + normal).normalize() * 0.62), (21.0, 0.0), "*α*");
     sketch.arrow(&[face.centre, spot], Look::solid(VERMILION, 2.0));
-    sketch.label(&((face.centre + spot) / 2.0), (16.0, 6.0), "*e*_{s}");
+    sketch.label(&((face.centre + spot) / 2.0), (16.0, 6.0), "*s*");
     sketch.label(&(face.centre * 0.5), (14.0, 20.0), "*R*");
     sketch.label(&position, (86.0, 70.0), "quadrotor");
     sketch.label(&(ray.origin + Vector3::z() * 0.55), (-62.0, -4.0), "ETS");

@@ -72,7 +72,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     );
     sketch.label(
         &((panned + north * 1.4).normalize() * 0.95),
-        (-20.0, -6.0),
+        (-8.0, -20.0),
         "*ψ*_{E}",
     );
     sketch.arrow(

@@ -55,7 +55,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     };
     let path = Panel::new("Image *r*_{1}, px", "Image −*r*_{2}, px")
         .line(
-            "",
+            "path",
             Look::solid(INK, 1.6),
             rows.iter().map(|r| (r.image.x, -r.image.y)),
         )

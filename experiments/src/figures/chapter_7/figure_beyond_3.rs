@@ -10,7 +10,7 @@ use crate::drawing::Drawing;
 use crate::figures::sweep;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
-use crate::plot::style::{GREY, INK, Look, Marker};
+use crate::plot::style::{GREY, INK, Look, Marker, PURPLE, SKY};
 use crate::plot::{Figure, Panel, series_style};
 
 /// The figure.
@@ -18,8 +18,10 @@ pub(super) const ITEM: Item = Item {
     id: "beyond.3",
     title: "Energy delivered and energy missed: the Pareto front of the crossings",
     description: "Not in the source. Crossings in 20 s at level 5, on a grid over the box of the two variables: electrical energy delivered against optical \
-                  energy that passes the receiver, the hazard of overfill. (a) With the laser on all the time. (b) The best of them, with the laser \
-                  switched off while the receiver catches less than a given share of the light. Marked: the minimum of *Φ*, of two and of four variables.",
+                  energy that passes the receiver, the hazard of overfill. (a) With the laser on all the time. (b) With the laser \
+                  switched off while the receiver catches less than a given share of the light. Marked: the minimum of *Φ*, of two and of four variables. Fronts: less \
+                  missed or more delivered than on the line is not known. Energies missed below 10^{−7} of the laser's are below what the quadrature over the \
+                  receiver resolves: they count as equal and stand at this floor.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[NEAR, GATE],
@@ -37,6 +39,13 @@ const GATE: Claim = Claim::holds(
 const SHARES: [f64; 12] = [0.0, 0.5, 0.7, 0.8, 0.85, 0.9, 0.93, 0.95, 0.97, 0.98, 0.99, 0.995];
 /// The share of claim GATE.
 const POOR: f64 = 0.9;
+/// Energy missed that the quadrature over the receiver no longer resolves, of the laser's: its accuracy up to 50° of incidence (`ets::power`),
+/// to which the light neglected beyond 2.8 beam radii contributes 4e-8.
+const RESOLVED: f64 = 1e-7;
+/// Shares up to which the laser is drawn as rarely off.
+const RARELY: f64 = 0.9;
+/// Range of energies missed in (b), as multiples of the floor.
+const SHOWN: [f64; 2] = [0.4, 4e7];
 /// Intervals of the grid along each variable.
 const GRID: u32 = 20;
 const GRID_QUICK: u32 = 8;
@@ -58,13 +67,16 @@ fn points(energies: &[Energy]) -> Vec<(f64, f64)> {
     energies.iter().map(|e| (e.missed, e.delivered)).collect()
 }
 
-/// The front as stairs: between two of its points nothing better than the left one is known.
-fn stairs(front: &[Energy]) -> Vec<(f64, f64)> {
-    let mut stairs = points(&front[..front.len().min(1)]);
-    for pair in front.windows(2) {
-        stairs.push((pair[1].missed, pair[0].delivered));
-        stairs.push((pair[1].missed, pair[1].delivered));
+/// The front as stairs, from no energy delivered to `end`: between two of its points nothing better than the left one is known.
+fn stairs(front: &[Energy], end: f64) -> Vec<(f64, f64)> {
+    let mut stairs = Vec::new();
+    let mut delivered = 0.0;
+    for point in front {
+        stairs.push((point.missed, delivered));
+        stairs.push((point.missed, point.delivered));
+        delivered = point.delivered;
     }
+    stairs.push((end, delivered));
     stairs
 }
 
@@ -88,15 +100,19 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         })
         .collect();
     let supplies = Supply::of_all(problem, &decisions, every(problem))?;
-    let on: Vec<Energy> = supplies.iter().map(|s| s.energy(0.0)).collect();
-    let gated: Vec<Energy> = SHARES
-        .iter()
-        .flat_map(|&share| supplies.iter().map(move |s| s.energy(share)))
-        .collect();
+    let mission = problem.mission();
+    let floor = RESOLVED * mission.station.beam.power * mission.duration_s;
+    let of = |supply: &Supply, share: f64| supply.energy(share).resolved(floor);
+    let all_at = |share: f64| supplies.iter().map(move |s| of(s, share));
+    let on: Vec<Energy> = all_at(0.0).collect();
+    let gated: Vec<Energy> = SHARES.into_iter().flat_map(all_at).collect();
+    let gated_by = |wanted: &dyn Fn(f64) -> bool| -> Vec<Energy> {
+        let shares = SHARES.into_iter().filter(|share| wanted(*share));
+        shares.flat_map(all_at).collect()
+    };
     let (two, at) = optimum(Case::TwoIn20, effort)?;
     let (four, _) = optimum(Case::Four, effort)?;
-    let track = |supply: &Supply| SHARES.map(|share| supply.energy(share));
-    let best = two.energy(0.0);
+    let best = of(&two, 0.0);
     let no_worse = on.iter().filter(|e| e.missed <= best.missed).map(|e| e.delivered);
     let gain = no_worse.fold(best.delivered, f64::max) / best.delivered - 1.0;
     let nearer = on.iter().filter(|e| e.dominates(&best)).count();
@@ -123,37 +139,49 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         ("*Φ*-optimum, two variables", &two, 1, Marker::Square),
         ("*Φ*-optimum, four variables", &four, 2, Marker::Triangle),
     ];
-    let label = |panel: Panel| panel.y_include(0.0);
-    let mut all = label(Panel::new("Energy missed, J", "Energy delivered, J"))
-        .caption("laser always on")
-        .x_range(-4.0, 104.0)
-        .markers(
-            "crossings",
-            Look::solid(GREY, 0.6).marked(Marker::Dot),
-            points(&on),
-        )
-        .line("front", Look::solid(INK, 1.4), stairs(&front(&on)))
-        .markers(
-            "",
-            Look::solid(INK, 1.4).marked(Marker::Circle),
-            points(&front(&on)),
-        );
-    let mut gate = label(Panel::new("Energy missed, J", "Energy delivered, J"))
+    let delivered = |energies: &[Energy]| energies.iter().map(|e| e.delivered).fold(0.0, f64::max);
+    let within: Vec<Energy> = gated.iter().filter(|e| e.missed <= floor).copied().collect();
+    let (clean, most) = (delivered(&within), delivered(&gated));
+    let panel = || Panel::new("Energy missed, J", "Energy delivered, J").y_include(0.0);
+    let cloud = |colour| Look::solid(colour, 0.6).marked(Marker::Dot);
+    let mut all = panel().caption("laser always on").x_range(-4.0, 104.0).markers(
+        "crossings, always on",
+        cloud(GREY),
+        points(&on),
+    );
+    let mut gate = panel()
         .caption("laser off at a poor catch")
         .log_x()
-        .markers("", Look::solid(GREY, 0.6).marked(Marker::Dot), points(&gated))
-        .line("front", Look::solid(INK, 1.4), stairs(&front(&gated)));
+        .x_range(SHOWN[0] * floor, SHOWN[1] * floor)
+        .vertical(floor, "resolved by the quadrature")
+        .markers("", cloud(GREY), points(&on))
+        .markers(
+            "off below 50 to 90 % of the light",
+            cloud(SKY),
+            points(&gated_by(&|share| share > 0.0 && share <= RARELY)),
+        )
+        .markers(
+            "off below 93 to 99.5 %",
+            cloud(PURPLE),
+            points(&gated_by(&|share| share > RARELY)),
+        );
     for (name, supply, index, marker) in marks {
         let look = series_style(index).marked(marker);
-        all = all.markers(name, look, points(&[supply.energy(0.0)]));
-        gate = gate
-            .line("", look, points(&track(supply)))
-            .markers(name, look, points(&track(supply)));
+        all = all.markers(name, look, points(&[of(supply, 0.0)]));
+        gate = gate.markers(name, look, points(&SHARES.map(|share| of(supply, share))));
     }
+    // On top of the markers, which would hide its corner.
+    let bold = Look::solid(INK, 1.4);
+    all = all.line(
+        "front",
+        bold,
+        stairs(&front(&on), mission.station.beam.power * mission.duration_s),
+    );
+    gate = gate.line("front", bold, stairs(&front(&gated), SHOWN[1] * floor));
     let mut data = DataTable::new(["x_0_m", "x_f_m", "share", "delivered_j", "missed_j"]);
     for (x, supply) in decisions.iter().zip(&supplies) {
         for share in SHARES {
-            let e = supply.energy(share);
+            let e = of(supply, share);
             data.push([
                 x[0].into(),
                 x[1].into(),
@@ -167,7 +195,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         DataTable::new(["variables", "share", "delivered_j", "missed_j"]).with_tolerance(SEARCHED);
     for (name, supply) in [("two", &two), ("four", &four)] {
         for share in SHARES {
-            let e = supply.energy(share);
+            let e = of(supply, share);
             optima.push([name.into(), share.into(), e.delivered.into(), e.missed.into()]);
         }
     }
@@ -184,10 +212,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             NEAR,
             gain < 0.01,
             format!(
-                "the Φ-optimum {} delivers {:.2} J and misses {:.1e} J; {nearer} of {} crossings are better in both, the best of them by {:.2} % of energy",
+                "the Φ-optimum {} delivers {:.2} J and misses no more than the {floor:.0e} J that are resolved; {nearer} of {} crossings miss as little and deliver more, the best of them by {:.2} %",
                 vector(&at),
                 best.delivered,
-                best.missed,
                 on.len(),
                 1e2 * gain
             ),
@@ -197,8 +224,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             kept > 0.99 && left < 0.01,
             format!("{:.2} % of the energy delivered and {:.3} % of that missed are left", 1e2 * kept, 1e2 * left),
         )
-        .note(
+        .note(format!(
             "With the laser always on the two energies add up to what the air lets through, so a crossing that delivers more misses less: the front is a corner, \
-             and Φ, which weighs no energy at all, leads into it. A conflict arises once the laser may be switched off.",
-        ))
+             and *Φ*, which weighs no energy at all, leads into it. Switching the laser off moves it little: a crossing may miss nothing that is resolved and \
+             deliver all but {:.3} % of the most. Only for crossings off the front does the share trade one energy for the other.",
+            1e2 * (1.0 - clean / most)
+        )))
 }

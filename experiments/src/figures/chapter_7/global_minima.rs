@@ -2,7 +2,7 @@
 
 use super::annealed::{Global, Minimum, minimum, settings};
 use super::optimisations::{Effort, basin};
-use super::solution_table::vector;
+use super::solution_table::{BOUND_NOTE, marked, vector};
 use super::solutions::SEARCHED;
 use crate::claim::Claim;
 use crate::data::DataTable;
@@ -94,7 +94,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             global.name().to_owned(),
             bounds(|d| d.lower),
             bounds(|d| d.upper),
-            vector(found.best()),
+            marked(&problem, found.best()),
             format!("{:.5}", found.cost()),
             side.to_owned(),
             format!("{local:.5}"),
@@ -120,6 +120,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         }
     }
     Ok(Drawing::table(shown)
+        .note(BOUND_NOTE)
         .data(data.with_tolerance(SEARCHED).with_volatile("time_s"))
         .scenario(&settings(effort))?
         .check(

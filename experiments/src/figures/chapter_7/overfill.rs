@@ -101,7 +101,7 @@ pub(super) fn sketch() -> Svg {
     // The spot offset, beside the sensor.
     let beside = |p: Point| p.offset(14.0 * c, -14.0 * s);
     diagram.arrow(&[beside(centre), beside(hit)], Look::solid(INK, 1.2));
-    diagram.text(beside(along(centre, SPOT / 2.0)).offset(14.0, 8.0), "*e*_{s}");
+    diagram.text(beside(along(centre, SPOT / 2.0)).offset(14.0, 8.0), "*s*");
     diagram.text(at(58.0, hit.y - 8.0), "beam");
     diagram.text(at(500.0, high - 8.0), "missed: overfill");
     diagram.text(bottom.offset(34.0, 8.0), "sensor");

@@ -14,7 +14,9 @@ pub(super) const FIGURE_7_21: Item = Item {
     id: "7.21",
     title: "Errors and cost of each level's six-variable solution, arbitrary search space",
     description: "Errors over their limits and the cost, while each level flies the crossing in 20 s that the line search found for it from [5, 0, −5, 0, −3, −3] \
-                  over the whole box. Variables are position and velocity along north, and *z*, at both ends.",
+                  over the whole box. Variables are position and velocity along north, and *z*, at both ends. All solutions lie on the bound *z*_{0} = *z*_{f} = −1 m: a lower flight is \
+                  nearer and less oblique to a station on the ground, and the bound, a height of 1 m, is the safety height. They start at |*x*_{0}| < 0.88 m, within the 10° about west that the \
+                  pan axis doesn't reach, so the beam starts beside the receiver's centre: the spike of (c) and (d) at *t* = 0.",
     make: Make::Draw(|context| errors(context, Case::SixArbitrary)),
     ..PLOT
 };
@@ -23,7 +25,7 @@ pub(super) const FIGURE_7_21: Item = Item {
 pub(super) const FIGURE_7_22: Item = Item {
     id: "7.22",
     title: "Near-optimal trajectories of each level, six variables, arbitrary search space",
-    description: "The crossings of figure 7.21 in space and from above, with the station and its beam at six instants.",
+    description: "The crossings of figure 7.21 in space and from above, with the station and its beam at six instants. Heights end on their bound, 1 m.",
     make: Make::Draw(|context| trajectories(context, Case::SixArbitrary)),
     ..PLOT
 };
@@ -32,7 +34,8 @@ pub(super) const FIGURE_7_22: Item = Item {
 pub(super) const FIGURE_7_23: Item = Item {
     id: "7.23",
     title: "Errors and cost of each level's six-variable solution, narrowed search space",
-    description: "As figure 7.21, with a box a quarter as wide about level 1's global minimum (table 7.6), from there.",
+    description: "As figure 7.21, with a box a quarter as wide about level 1's global minimum (table 7.6), from there. Again *z*_{0} = *z*_{f} = −1 m, the bound, \
+                  and starts lie in the 10° about west that the pan axis doesn't reach.",
     claims: &[NOT_WORSE],
     make: Make::Draw(narrowed_errors),
     ..PLOT
@@ -42,7 +45,7 @@ pub(super) const FIGURE_7_23: Item = Item {
 pub(super) const FIGURE_7_24: Item = Item {
     id: "7.24",
     title: "Near-optimal trajectories of each level, six variables, narrowed search space",
-    description: "The crossings of figure 7.23 in space and from above, with the station and its beam at six instants.",
+    description: "The crossings of figure 7.23 in space and from above, with the station and its beam at six instants. Heights end on their bound, 1 m.",
     make: Make::Draw(|context| trajectories(context, Case::SixNarrowed)),
     ..PLOT
 };
@@ -51,7 +54,8 @@ pub(super) const FIGURE_7_24: Item = Item {
 pub(super) const FIGURE_7_25: Item = Item {
     id: "7.25",
     title: "Least cost and run time per call of the cost, six variables",
-    description: "The minima found in both boxes and the time that one call of the cost takes on one thread, per level.",
+    description: "The minima found in both boxes and the time that one call of the cost takes on one thread, per level. †: on a bound of the box, here \
+                  the safety height, *z*_{0} = *z*_{f} = −1 m.",
     claims: &[NEVER_FALLS],
     make: Make::Draw(|context| {
         minima(
@@ -69,7 +73,8 @@ pub(super) const FIGURE_7_25: Item = Item {
 pub(super) const TABLE_7_5: Item = Item {
     id: "table-7.5",
     title: "Six-variable line search over an arbitrary space",
-    description: "At each level for a crossing in 20 s: scans and golden sections along one variable after the other, over the whole box.",
+    description: "At each level for a crossing in 20 s: scans and golden sections along one variable after the other, over the whole box. †: on a bound of the box, \
+                  here the safety height.",
     kind: Kind::Table,
     claims: &[ENDED],
     make: Make::Draw(|context| table(context, Case::SixArbitrary)),
@@ -80,7 +85,7 @@ pub(super) const TABLE_7_5: Item = Item {
 pub(super) const TABLE_7_7: Item = Item {
     id: "table-7.7",
     title: "Six-variable line search over a narrowed space",
-    description: "As table 7.5, over a box a quarter as wide about level 1's global minimum (table 7.6), from there.",
+    description: "As table 7.5, over a box a quarter as wide about level 1's global minimum (table 7.6), from there. †: on a bound of the box.",
     claims: &[ENDED, NOT_WORSE],
     make: Make::Draw(|context| judged(table(context, Case::SixNarrowed)?, context)),
     ..TABLE_7_5

@@ -2,6 +2,7 @@
 
 use super::optimisations::{Case, Effort, Solved, basin};
 use super::run_time::{MARGIN, least_times, never_falls};
+use super::solution_table::{BOUND_NOTE, ON_BOUND, on_bounds, vector};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
@@ -14,7 +15,7 @@ use kuva::plot::BarPlot;
 use kuva::render::plots::Plot;
 use quad_dynamics::Level;
 use std::num::NonZeroU64;
-use wpt_optim::{Histories, History};
+use wpt_optim::{Histories, History, Problem};
 
 /// What the plots of solutions share.
 pub(super) const PLOT: Item = Item {
@@ -49,7 +50,7 @@ pub(super) struct Flown {
 }
 
 /// How many of the station's steps lie between the instants drawn.
-pub(super) fn every(problem: &wpt_optim::Problem) -> NonZeroU64 {
+pub(super) fn every(problem: &Problem) -> NonZeroU64 {
     let steps = SAMPLE_S / problem.mission().station_step.seconds();
     NonZeroU64::new(steps.round() as u64).unwrap_or(NonZeroU64::MIN)
 }
@@ -76,19 +77,41 @@ fn valley(x: &[f64], first: &[f64]) -> &'static str {
     }
 }
 
+/// Which variables of a solution lie on the bounds of the box, how far it flies beyond the range limit, and whether the pan axis is at
+/// its stop at the start, in words.
+fn excesses(problem: &Problem, x: &[f64]) -> Result<String, ItemError> {
+    let mut words = String::new();
+    let bound: Vec<_> = on_bounds(problem, x).map(|d| d.condition.key()).collect();
+    if !bound.is_empty() {
+        words += &format!(", on the bound of {}", bound.join(", ").replace('_', "\\_"));
+    }
+    let instants = problem.histories(x, every(problem))?.instants;
+    let limit = problem.mission().station.limits.range;
+    let farthest = instants.iter().map(|h| h.range_m / limit).fold(0.0, f64::max);
+    if farthest > 1.0 {
+        words += &format!(", at up to {farthest:.2} times the range limit");
+    }
+    let pan = &problem.mission().station.gimbal.pan;
+    let turned = instants.first().map_or(0.0, |h| h.gimbal_rad[0]);
+    if turned <= pan.minimum || turned >= pan.maximum {
+        words += ", starting with the pan axis at its stop";
+    }
+    Ok(words)
+}
+
 /// What each level found, in words.
 fn remarks(case: Case, effort: Effort) -> Result<Vec<String>, ItemError> {
     let first = case.solved(effort)?[0].first().best();
     let remark = |solved: &Solved| -> Result<String, ItemError> {
         let (problem, found) = (&solved.problem, solved.first());
-        let values: Vec<_> = found.best().iter().map(|x| format!("{x:.3}")).collect();
         Ok(format!(
-            "Level {}: *Φ* = {:.4} at [{}], passing {} of the station{}; {} evaluations, {:.1} s; {}.",
+            "Level {}: *Φ* = {:.4} at {}, passing {} of the station{}{}; {} evaluations, {:.1} s; {}.",
             problem.level().number(),
             found.cost(),
-            values.join(", "),
+            vector(found.best()),
             basin(problem, found.best())?,
             valley(found.best(), first),
+            excesses(problem, found.best())?,
             found.report.evaluations,
             found.report.elapsed.as_secs_f64(),
             found.report.stop
@@ -123,13 +146,12 @@ pub(super) fn errors(context: &Context, case: Case) -> Result<Drawing, ItemError
     let limits = &solved[0].problem.mission().station.limits;
     let spot = |h: &History| h.spot_m[0].hypot(h.spot_m[1]) / limits.spot;
     let figure = Figure::columns(2)
-        .panel(over_time("Range error *e*_{R}", &flown, |h| h.range_m / limits.range).y_include(0.0))
-        .panel(
-            over_time("Incidence error *e*_{α}", &flown, |h| {
-                h.incidence_rad / limits.incidence
-            })
-            .y_include(0.0),
-        )
+        .panel(over_time("Range error *e*_{R}", &flown, |h| {
+            h.range_m / limits.range
+        }))
+        .panel(over_time("Incidence error *e*_{α}", &flown, |h| {
+            h.incidence_rad / limits.incidence
+        }))
         .panel(over_time("Spot error *e*_{s}", &flown, spot))
         .panel(over_time("Cost rate d(*T Φ*)/d*t*", &flown, |h| h.cost))
         .share_x();
@@ -165,6 +187,8 @@ fn pictured(p: &[f64; 3]) -> [f64; 3] {
 /// The flights in space and from above, with the station and its beam.
 pub(super) fn paths(flown: &[Flown], station: [f64; 3]) -> Figure {
     let thin = Look::solid(GREY, 0.7);
+    // Starts of levels lie within a hand's breadth of each other: one small mark for all of them, so that none hides another.
+    let begin = Look::solid(INK, 1.0).marked(Marker::Dot);
     let mut space = Space::new("north *x*, m", "west −*y*, m", "height, m")
         .equal_aspect()
         .view(View {
@@ -190,28 +214,29 @@ pub(super) fn paths(flown: &[Flown], station: [f64; 3]) -> Figure {
     for flight in flown {
         let (level, instants) = (flight.level.number(), &flight.histories.instants);
         let (name, look) = (level_name(level), level_style(level));
-        let start = instants.first();
-        space = space
-            .line(
-                name.clone(),
-                look,
-                instants.iter().map(|h| pictured(&h.position_m)),
-            )
-            .markers("", look, start.map(|h| pictured(&h.position_m)));
-        plan = plan
-            .line(
-                name,
-                look,
-                instants.iter().map(|h| (h.position_m[1], h.position_m[0])),
-            )
-            .markers("", look, start.map(|h| (h.position_m[1], h.position_m[0])));
+        space = space.line(
+            name.clone(),
+            look,
+            instants.iter().map(|h| pictured(&h.position_m)),
+        );
+        plan = plan.line(
+            name,
+            look,
+            instants.iter().map(|h| (h.position_m[1], h.position_m[0])),
+        );
     }
+    let starts: Vec<[f64; 3]> = flown
+        .iter()
+        .filter_map(|flight| flight.histories.instants.first().map(|h| h.position_m))
+        .collect();
+    space = space.markers("start", begin, starts.iter().map(pictured));
+    plan = plan.markers("start", begin, starts.iter().map(|p| (p[1], p[0])));
     let mark = Look::solid(INK, 1.0).marked(Marker::Square);
     space = space.markers("station", mark, [pictured(&station)]);
     plan = plan.markers("station", mark, [(station[1], station[0])]);
     Figure::columns(2)
         .panel_size(360.0, 270.0)
-        .panel(space.caption("in space; markers: starts"))
+        .panel(space.caption("in space; grey: projection on the ground"))
         .panel(plan.caption("from above"))
 }
 
@@ -245,10 +270,16 @@ pub(super) fn trajectories(context: &Context, case: Case) -> Result<Drawing, Ite
     )
 }
 
-/// A bar per level, in the level's colour, with its value above.
-pub(super) fn bars(label: &str, values: &[f64], digits: usize) -> Panel {
-    let heights = values.to_vec();
-    let top = values.iter().copied().fold(0.0, f64::max);
+/// A bar of a level.
+struct Bar {
+    height: f64,
+    /// The words above it.
+    words: String,
+}
+
+/// A bar per level, in the level's colour, with its words above, on an axis for bars up to `top`.
+fn bars(label: &str, bars: &[Bar], top: f64) -> Panel {
+    let heights: Vec<f64> = bars.iter().map(|bar| bar.height).collect();
     let panel = Panel::new("Level", label)
         .x_categories(Level::ALL.map(|l| l.number().to_string()))
         .kuva(move || {
@@ -260,9 +291,21 @@ pub(super) fn bars(label: &str, values: &[f64], digits: usize) -> Panel {
         })
         .x_range(0.4, 5.6)
         .y_range(0.0, 1.15 * top);
-    values.iter().enumerate().fold(panel, |panel, (i, &value)| {
-        panel.annotate(i as f64 + 1.0, value, format!("{value:.digits$}"))
+    bars.iter().enumerate().fold(panel, |panel, (i, bar)| {
+        panel.annotate(i as f64 + 1.0, bar.height, bar.words.clone())
     })
+}
+
+/// The bar of a minimum, marked if it lies on a bound of its box.
+fn minimum_bar(solved: &Solved) -> Bar {
+    let found = solved.first();
+    let mark = on_bounds(&solved.problem, found.best())
+        .next()
+        .map_or("", |_| ON_BOUND);
+    Bar {
+        height: found.cost(),
+        words: format!("{:.3}{mark}", found.cost()),
+    }
 }
 
 /// Minima of some cases and the run time per call of the cost, per level.
@@ -275,10 +318,19 @@ pub(super) fn minima(context: &Context, cases: &[(&'static str, Case)]) -> Resul
         .panel_size(230.0, 190.0);
     let mut data =
         DataTable::new(["case", "level", "minimum", "evaluations", "call_s"]).with_tolerance(SEARCHED);
+    let mut minima = Vec::new();
+    for (name, case) in cases {
+        let bars: Vec<Bar> = case.solved(effort)?.iter().map(minimum_bar).collect();
+        minima.push((name, bars));
+    }
+    // One scale for all cases.
+    let heights = minima.iter().flat_map(|(_, bars)| bars).map(|bar| bar.height);
+    let top = heights.fold(0.0, f64::max);
+    for (name, minima) in &minima {
+        figure = figure.panel(bars("Least cost *Φ*", minima, top).caption(format!("least cost, {name}")));
+    }
     for (name, case) in cases {
         let solved = case.solved(effort)?;
-        let costs: Vec<f64> = solved.iter().map(|s| s.first().cost()).collect();
-        figure = figure.panel(bars("Least cost *Φ*", &costs, 3).caption(*name));
         for (solved, &time) in solved.iter().zip(&times) {
             let found = solved.first();
             let evaluations = found.report.evaluations as f64;
@@ -293,7 +345,15 @@ pub(super) fn minima(context: &Context, cases: &[(&'static str, Case)]) -> Resul
         }
     }
     let milliseconds: Vec<f64> = times.iter().map(|t| 1e3 * t).collect();
-    figure = figure.panel(bars("Run time per cost call, ms", &milliseconds, 1).caption("run time"));
+    let run_times: Vec<Bar> = milliseconds
+        .iter()
+        .map(|&height| Bar {
+            height,
+            words: format!("{height:.1}"),
+        })
+        .collect();
+    let slowest = milliseconds.iter().copied().fold(0.0, f64::max);
+    figure = figure.panel(bars("Run time per cost call, ms", &run_times, slowest).caption("run time"));
     let measured = milliseconds
         .iter()
         .map(|t| format!("{t:.2}"))
@@ -306,6 +366,7 @@ pub(super) fn minima(context: &Context, cases: &[(&'static str, Case)]) -> Resul
             never_falls(&times),
             format!("{measured} ms for levels 1 to 5, the least of repeated calls; a fall of up to {:.0} % would count as none", 1e2 * MARGIN),
         )
+        .note(BOUND_NOTE)
         .note("Run times are of this machine and build; each is the least of calls in turns, until turns bring nothing new. Levels differ by what a derivative costs: steps and derivatives per flight are the same.");
     noted(drawing, timed, effort)
 }

@@ -15,7 +15,8 @@ pub(super) const ITEM: Item = Item {
     title: "State estimation: errors by the filter's level and by the quality of its sensors",
     description: "An error-state Kalman filter on each level estimates the same four flights of level 5 (with noise, along the trajectory of \
                   figure 6.17) from accelerometer, gyroscope, magnetometer, sonar and position fixes of three qualities. The noise of a \
-                  lower level is the likeliest on a flight of its own. Root mean squares from the second second on.",
+                  lower level is the likeliest on a flight of its own. Root mean squares from the second second on. The tilt of level 1 is worse with good sensors than with poor ones: it trusts them too far for its \
+                  linear model.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[QUALITY, LEVEL, LEVEL_VERY_POOR, SENSORS_FIRST],
@@ -41,9 +42,9 @@ const SENSORS_FIRST: Claim = Claim::does_not_hold(
 
 /// The panels: name of the column, label, factor into its unit.
 const SHOWN: [(&str, &str, f64); 3] = [
-    ("position_m", "Position error, m", 1.0),
-    ("velocity_m_s", "Velocity error, m/s", 1.0),
-    ("tilt_deg", "Tilt error, °", 57.295_779_513_082_32),
+    ("position_m", "Position error, cm", 1e2),
+    ("velocity_m_s", "Velocity error, m s^{−1}", 1.0),
+    ("tilt_deg", "Tilt error, deg", 57.295_779_513_082_32),
 ];
 
 /// The flights have the same truth and sensors for all filters; below a per cent two filters are the same.
