@@ -1,7 +1,7 @@
 //! The cost: errors of range, incidence and spot, and penalties for leaving the limits.
 //!
 //! ```text
-//! e_R = R/R_max,  e_α = α/α_max,  e_s = |e_s|/s_max
+//! e_R = R/R_max,  e_α = α/α_max,  e_s = ‖s‖/s_max
 //! Φ   = 1/T ∫ Σ w_i f(e_i²) + Σ p_j f(v_j²) dt
 //! f(s) = s up to Q²,  Q² (1 + ln(s/Q²)) beyond
 //! ```
@@ -13,7 +13,7 @@
 //! | violation v | of |
 //! | --- | --- |
 //! | `ε/ε_max − 1` | lost target: the receiver's angle ε off the optical axis, and the camera's half angle of view ε_max |
-//! | `1 − a/(|e_s| + w)` | overfill: how much of the reach of the spot, of radius w, is over the edge of the receiver, a from its centre |
+//! | `1 − a/(‖s‖ + w)` | overfill: how much of the reach of the spot, of radius w, is over the edge of the receiver, a from its centre |
 //! | `(h_min − h)/1 m` | the ground |
 //! | `√Σ (u_i − sat u_i)²/(u_max − u_min)` | saturation: commands beyond the rotors' limits, whether the model has limits or not |
 //!
