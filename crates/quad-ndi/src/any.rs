@@ -1,8 +1,9 @@
 //! A controller chosen at run time, with its memory.
 
+use crate::closed_loop::step_from;
 use crate::controller::{Controller, ControllerError};
 use crate::pid::Pid;
-use crate::{C1, C2, C3, LoopState, Reference, closed_loop_step};
+use crate::{C1, C2, C3, Reference};
 use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, InFlight, Level, QuadrotorModel};
 use quad_math::{Flat, Real};
@@ -48,7 +49,7 @@ macro_rules! each_controller {
     };
 }
 
-/// [`closed_loop_step`] in place.
+/// [`closed_loop_step`](crate::closed_loop_step) in place.
 ///
 /// A function per pair: all twenty in one body cost 30 ns a step more, in registers that don't suffice.
 #[inline(never)]
@@ -59,12 +60,8 @@ fn step_together<R: Real, C: Controller<R>, M: QuadrotorModel<R>>(
     wind: &Vector3<R>,
     h: R,
 ) -> [R; 4] {
-    let now = LoopState {
-        state: in_flight.state,
-        memory: in_charge.memory,
-        commands: [R::zero(); 4],
-    };
-    let next = closed_loop_step(&in_flight.model, &in_charge.controller, &now, reference, wind, h);
+    let now = (&in_flight.state, &in_charge.memory);
+    let next = step_from(&in_flight.model, &in_charge.controller, now, reference, wind, h);
     in_flight.state = next.state;
     in_charge.memory = next.memory;
     next.commands
@@ -81,7 +78,7 @@ impl<R: Real> AnyController<R> {
         })
     }
 
-    /// One closed-loop step of `h` seconds with a quadrotor of any level: [`closed_loop_step`] by value. Gives the
+    /// One closed-loop step of `h` seconds with a quadrotor of any level: [`closed_loop_step`](crate::closed_loop_step) by value. Gives the
     /// commands that were held over the step.
     ///
     /// Controller and model are compiled into one step for every pair, which is faster than

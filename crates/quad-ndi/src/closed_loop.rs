@@ -33,10 +33,23 @@ pub fn closed_loop_step<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
     wind: &Vector3<R>,
     h: R,
 ) -> LoopState<R, StateOf<R, M>, C::Memory> {
-    let answer = controller.control(&now.memory, &model.flight(&now.state), reference, h);
+    step_from(model, controller, (&now.state, &now.memory), reference, wind, h)
+}
+
+/// The same from a state and a memory, wherever they are.
+#[inline(always)]
+pub(crate) fn step_from<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
+    model: &M,
+    controller: &C,
+    (state, memory): (&StateOf<R, M>, &C::Memory),
+    reference: &Reference<R>,
+    wind: &Vector3<R>,
+    h: R,
+) -> LoopState<R, StateOf<R, M>, C::Memory> {
+    let answer = controller.control(memory, &model.flight(state), reference, h);
     let input = Input::in_wind(answer.commands, *wind);
     LoopState {
-        state: FixedStep::Rk4.step(model, &now.state, &input, h),
+        state: FixedStep::Rk4.step(model, state, &input, h),
         memory: answer.memory,
         commands: answer.commands,
     }

@@ -201,7 +201,7 @@ impl Quadrotor {
     }
 
     /// The air that its model meets.
-    #[inline]
+    #[inline(always)]
     fn met(&self, now: &Moment<'_>) -> Met {
         if self.is_still {
             return Met::steady(Vector3::zeros());
@@ -232,7 +232,7 @@ impl Quadrotor {
     }
 
     /// The battery goes on as in hover at levels that don't have one, so that it is not fresh when one comes that does.
-    #[inline]
+    #[inline(always)]
     fn draw_charge(&mut self, now: &Moment<'_>) {
         if self.hover_draw > 0.0 && self.quadrotor.level() != Level::Five {
             self.charge_drawn += self.hover_draw * now.step_s;
@@ -253,7 +253,7 @@ impl Quadrotor {
     }
 
     /// Changes the level if the script says so at this instant.
-    #[inline]
+    #[inline(always)]
     fn follow_script(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
         if self.scripted.is_empty() {
             return None;
