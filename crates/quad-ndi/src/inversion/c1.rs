@@ -16,7 +16,7 @@ use quad_math::Real;
 /// M      = I [v_φ, v_θ, v_ψ]                       v_φ, v_θ: attitude loop
 /// ```
 ///
-/// Relative degree 2 in z and ψ, 4 in x and y. Exact on level 1 at a steady heading: it takes
+/// Relative degree 2 in z and ψ, 4 in x and y. Exact on level 1 to first order in tilt at a steady heading: it takes
 /// body rates for rates of the Euler angles, and while a tilted vehicle turns they differ by `ψ̇ θ` and `ψ̇ φ`.
 /// The demanded tilt is not limited.
 /// Source: thesis chapter 6.3.1.

@@ -12,7 +12,7 @@ pub(super) const ITEM: Item = Item {
     title: "Following a trajectory: c1 on levels 1 to 5",
     description: "The reference of figure 6.17 followed by controller c1 on levels 1 to 5, its derivatives fed forward, \
                   input limits off. Below, the distance from the reference. c1 takes body rates for rates of the Euler angles, \
-                  which they are not while a tilted vehicle turns its heading: level 1, on which c1 is exact at a steady heading, is off by that. \
+                  which they are not while a tilted vehicle turns its heading: level 1, which c1 follows to a few millimetres at a steady heading, is off by that. \
                   Grey: projection on the ground.",
     kind: Kind::Plot,
     origin: Origin::Simulated,

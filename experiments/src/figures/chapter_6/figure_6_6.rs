@@ -17,8 +17,8 @@ pub(super) const ITEM: Item = Item {
     description: "A step of one metre in height with a designed settling time of 0.2 s, more than the rotors can \
                   give: climb rate against height under controller c1 with limits. Start at the origin, target at \
                   (1, 0). 10 s are flown, the first eight drawn thin, the last two thick. The loop's 29.2 rad/s is just inside \
-                  the Routh array's 30 rad/s at level 3 and beyond what levels 4 and 5 allow. What the limits leave of the loop is seen in the \
-                  thick lines. Levels 1 to 4 brake harder than gravity, since their linear rotor pulls down at the lowest command.",
+                  the Routh array's 30 rad/s at level 3 and beyond what levels 4 and 5 allow. Levels 1 and 2 come to rest; levels 3 to 5 circle at the limits to the end, levels 3 and 4 \
+                  still growing slowly. Levels 1 to 4 brake harder than gravity, since their linear rotor pulls down at the lowest command.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[ACTIVE],
