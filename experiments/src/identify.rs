@@ -13,7 +13,9 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use sysid::pipeline::{Identified, Measurements, VirtualLaboratory, identify};
+use sysid::Estimate;
+use sysid::load_cell::{ThrustSample, TorqueSample};
+use sysid::pipeline::{Cells, Identified, Measurements, VirtualLaboratory, identify};
 
 /// Centre of mass of the true vehicle, m: the nominal file has it at the origin, where nothing would be found.
 const TRUE_CENTRE_OF_MASS_M: [f64; 3] = [0.004, -0.006, 0.012];
@@ -73,7 +75,10 @@ pub fn run(context: &Context, seed: u64, out: &Path) -> Result<Outcome, ItemErro
     let identified = Vehicle::from_file(&found.file, "the identified vehicle")?;
     let claims = figures::claims_of_figure_6_14(&identified)?;
 
+    let cells = Cells::calibrated(&measurements.thrust_cell, &measurements.torque_cell)
+        .map_err(|e| ItemError::new(e.to_string()))?;
     let mut report = report(&found, truth, seed)?;
+    report.push_str(&cell_table(&cells));
     let _ = writeln!(report, "\n## Figure 6.14 with the identified vehicle\n");
     for claim in &claims {
         let verdict = if claim.holds { "holds" } else { "DOES NOT HOLD" };
@@ -84,7 +89,7 @@ pub fn run(context: &Context, seed: u64, out: &Path) -> Result<Outcome, ItemErro
     raw(&measurements, out)?;
     write(&out.join("vehicle.toml"), found.file.to_toml().as_bytes())?;
     write(&out.join("report.md"), report.as_bytes())?;
-    let png = crate::plot::raster::png(&picture(&measurements, &identified)?.draw());
+    let png = crate::plot::raster::png(&picture(&cells, &measurements, &identified)?.draw());
     write(
         &out.join("thrust.png"),
         &png.map_err(|e| ItemError::new(e.to_string()))?,
@@ -114,14 +119,20 @@ fn raw(m: &Measurements, out: &Path) -> Result<(), ItemError> {
     for (swing, name) in m.swings.iter().zip(["roll", "pitch", "yaw"]) {
         rows(&out.join(format!("pendulum_{name}.csv")), &swing.samples)?;
     }
+    let thrust = m.thrust_cell.samples.iter();
+    let thrust: Vec<ThrustSample> = thrust.map(|&s| s.into()).collect();
+    rows(&out.join("load_cell_thrust.csv"), &thrust)?;
+    let torque = m.torque_cell.samples.iter();
+    let torque: Vec<TorqueSample> = torque.map(|&s| s.into()).collect();
+    rows(&out.join("load_cell_torque.csv"), &torque)?;
     rows(&out.join("static_sweep.csv"), &m.sweep)?;
     rows(&out.join("operating_sweep.csv"), &m.operating)?;
     rows(&out.join("rotor_response.csv"), &m.dynamic)?;
     rows(&out.join("flight.csv"), &m.flight)
 }
 
-/// The table of the identified numbers beside the truth. Where the true number is that of a working point (rotor dynamics) or
-/// of a fit (cubics, gains), the nominal file's derivation of it is the truth.
+/// The table of the identified numbers beside the truth. Where the true number is that of a working point (rotor dynamics: hover,
+/// the mean of the excitation) or of a fit (cubics, gains), the nominal file's derivation of it is the truth.
 fn report(found: &Identified, truth: &VehicleFile, seed: u64) -> Result<String, ItemError> {
     let table: toml::Table = truth
         .to_toml()
@@ -161,6 +172,24 @@ fn report(found: &Identified, truth: &VehicleFile, seed: u64) -> Result<String, 
     Ok(text)
 }
 
+/// The lines of the load cells, which every thrust and torque of the stand went through.
+fn cell_table(cells: &Cells) -> String {
+    let mut text = "\n## Load cells of the stand\n\n| cell | zero, mV | sensitivity, mV per N or N m |\n| --- | --- | --- |\n".to_owned();
+    let in_mv = |e: Estimate| format!("{:.2} ± {:.2}", 1e3 * e.value, 1e3 * e.half_width());
+    for (name, cell) in [("thrust", &cells.thrust), ("torque", &cells.torque)] {
+        let _ = writeln!(
+            text,
+            "| {name} | {} | {} |",
+            in_mv(cell.zero()),
+            in_mv(cell.sensitivity())
+        );
+    }
+    text.push_str(
+        "\nThe errors of the lines are common to all readings of a sweep; the standard errors of the static numbers contain them.\n",
+    );
+    text
+}
+
 /// A number of a vehicle file by its key, `group.name` or `group.name[i]`.
 fn number(table: &toml::Table, key: &str) -> Option<f64> {
     let (path, index) = match key.split_once('[') {
@@ -173,13 +202,13 @@ fn number(table: &toml::Table, key: &str) -> Option<f64> {
 }
 
 /// The static sweep and the identified cubic.
-fn picture(m: &Measurements, vehicle: &Vehicle) -> Result<Figure, ItemError> {
+fn picture(cells: &Cells, m: &Measurements, vehicle: &Vehicle) -> Result<Figure, ItemError> {
     let [k1, k2, k3] = vehicle
         .require_polynomial_rotor("the plot of the identified thrust")?
         .thrust;
     let minimum = vehicle.pwm.minimum;
-    let measured: Vec<(f64, f64)> = m
-        .sweep
+    let measured: Vec<(f64, f64)> = cells
+        .steady(&m.sweep)
         .iter()
         .map(|s| (s.effective(minimum), s.thrust_n))
         .collect();

@@ -371,8 +371,10 @@ fn mean_weight(placings: &[Placing]) -> Estimate {
 }
 
 fn disagreement(lack_of_fit: Option<LackOfFit>) -> Option<Warning> {
-    let LackOfFit { p_value, .. } = lack_of_fit?;
-    (p_value < crate::residual::CORRELATED_BELOW).then_some(Warning::GroupsDisagree { p_value })
+    let test = lack_of_fit.filter(LackOfFit::is_significant)?;
+    Some(Warning::GroupsDisagree {
+        p_value: test.p_value,
+    })
 }
 
 /// A placing whose weight is not that of the others: a scale at the end of its range, a fourth point that touched.

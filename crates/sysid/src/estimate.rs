@@ -104,6 +104,28 @@ impl Estimate {
     }
 }
 
+impl Estimate {
+    /// The estimate with another, independent standard error on top; degrees of freedom by Welch and Satterthwaite,
+    /// `ν = (u_1² + u_2²)² / (u_1⁴/ν_1 + u_2⁴/ν_2)`.
+    ///
+    /// Source: Joint Committee for Guides in Metrology, *Guide to the expression of uncertainty in measurement*, G.4.1.
+    #[must_use]
+    pub fn with_error(&self, standard_error: f64, degrees_of_freedom: f64) -> Self {
+        let together = self.standard_error.hypot(standard_error);
+        if together == 0.0 {
+            return *self;
+        }
+        let share = |error: f64, freedom: f64| (error / together).powi(4) / freedom;
+        Self {
+            value: self.value,
+            standard_error: together,
+            degrees_of_freedom: 1.0
+                / (share(self.standard_error, self.degrees_of_freedom)
+                    + share(standard_error, degrees_of_freedom)),
+        }
+    }
+}
+
 /// Quantile of Student's t; of the normal distribution beyond a million degrees of freedom, where both agree to 1e-6.
 fn student_quantile(probability: f64, degrees_of_freedom: f64) -> f64 {
     assert!(
@@ -126,7 +148,7 @@ pub struct Goodness {
     pub largest_residual: f64,
     /// `R² = 1 − Σ r² / Σ (y − ȳ)²`; `None` if the data are constant.
     pub r_squared: Option<f64>,
-    /// `n − p`; fewer where intervals were widened for correlated residuals.
+    /// `n − p`; fewer where intervals were widened for correlated residuals, or come from repetitions.
     pub degrees_of_freedom: f64,
 }
 
@@ -288,6 +310,17 @@ pub enum Warning {
     )]
     GroupsDisagree {
         /// Probability of such a disagreement by chance.
+        p_value: f64,
+    },
+    /// A curve misses repeated readings.
+    #[error(
+        "the curve misses the means of repeated readings by more than they scatter (by {misfit:.2e} on average; F test, p = \
+         {p_value:.1e}): its numbers are those of the best curve over these settings, and no interval contains what it misses"
+    )]
+    CurveMisses {
+        /// Root mean square of the means about the curve, in the unit of the data.
+        misfit: f64,
+        /// Probability of such a misfit by chance.
         p_value: f64,
     },
     /// One placing weighs more or less than the others.

@@ -38,6 +38,24 @@ pub struct TorqueSample {
     pub reading_v: f64,
 }
 
+impl From<Sample> for ThrustSample {
+    fn from(sample: Sample) -> Self {
+        Self {
+            load_n: sample.load,
+            reading_v: sample.reading_v,
+        }
+    }
+}
+
+impl From<Sample> for TorqueSample {
+    fn from(sample: Sample) -> Self {
+        Self {
+            load_n_m: sample.load,
+            reading_v: sample.reading_v,
+        }
+    }
+}
+
 /// A load, N or N m, and the reading, V.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -97,10 +115,26 @@ pub struct Linearity {
 impl Linearity {
     /// Whether neither test rejects the line, at the level of one false alarm in a thousand each.
     pub fn is_straight(&self) -> bool {
-        let fits = self
-            .lack_of_fit
-            .is_none_or(|test| test.p_value >= CORRELATED_BELOW);
+        let fits = self.lack_of_fit.is_none_or(|test| !test.is_significant());
         self.p_value >= CORRELATED_BELOW && fits
+    }
+}
+
+/// From readings to loads along a line, `x = x̄ + (y − ȳ)/s`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conversion {
+    /// Load x̄, N or N m, in the middle of the calibration.
+    pub mean_load: f64,
+    /// Reading ȳ at this load, V.
+    pub mean_reading_v: f64,
+    /// Sensitivity s, V per N or N m.
+    pub sensitivity: f64,
+}
+
+impl Conversion {
+    /// The load, N or N m, under a reading, V.
+    pub fn load(&self, reading_v: f64) -> f64 {
+        self.mean_load + (reading_v - self.mean_reading_v) / self.sensitivity
     }
 }
 
@@ -288,6 +322,37 @@ impl Calibration {
     pub fn reading(&self, load: f64) -> Estimate {
         let [zero, slope] = self.line.values();
         self.line.propagated(zero + slope * load, &[1.0, load])
+    }
+
+    /// The line as it converts many readings, whose noise is judged elsewhere.
+    pub fn conversion(&self) -> Conversion {
+        let [zero, sensitivity] = self.line.values();
+        Conversion {
+            mean_load: self.mean_load,
+            mean_reading_v: zero + sensitivity * self.mean_load,
+            sensitivity,
+        }
+    }
+
+    /// The line one standard error off, in height and in slope: `ȳ + σ/√n` and `s + σ/√S_xx`, which are independent.
+    ///
+    /// The error of the line is common to all readings that it converts. What is computed from them has, on top of their noise,
+    /// the variance of its two changes when it is computed with these lines, squared and added. Degrees of freedom are the
+    /// line's.
+    pub fn one_error_off(&self) -> [Conversion; 2] {
+        let line = self.conversion();
+        let sigma = self.line.goodness.standard_deviation;
+        let n = self.line.residuals.len() as f64;
+        [
+            Conversion {
+                mean_reading_v: line.mean_reading_v + sigma / n.sqrt(),
+                ..line
+            },
+            Conversion {
+                sensitivity: line.sensitivity + sigma / self.spread.sqrt(),
+                ..line
+            },
+        ]
     }
 
     /// The load under which these readings were taken, N or N m.

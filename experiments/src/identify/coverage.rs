@@ -6,9 +6,8 @@ use rayon::prelude::*;
 use std::fmt;
 
 /// What must be known to read the counts.
-const WORDS: &str = "Cubics and the line's gains: their residuals are mostly what the curve misses of the rotor, the same in every run, so their \
-                     intervals are wider than the noise. Rotor dynamics: compared with the nominal file's numbers at hover; the mean duty of \
-                     a record lies a little beside it.";
+const WORDS: &str = "Cubics and line: compared with the noise-free best curve over the same range; intervals by the scatter of repeated readings and \
+                     the error of the load cells' lines. Rotor dynamics: compared with the closed form at hover, the mean of the excitation.";
 
 /// Hits of each number's 95 % interval.
 #[derive(Clone, Debug, PartialEq)]

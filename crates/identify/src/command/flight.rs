@@ -33,7 +33,8 @@ pub(super) fn identify(common: &Common, flown: &Flown, answer: &mut Answer) -> D
     let mass = flown.mass_kg.unwrap_or(vehicle.airframe.mass);
     let span = flown.from.unwrap_or(first(&log) + RUN_IN_S)..flown.to.unwrap_or(f64::INFINITY);
     let window = Window { log: &log, span };
-    let found = identify_thrust_and_inertia(&window, &window, mass, &vehicle)?;
+    let found = identify_thrust_and_inertia(&window, &window, mass, &vehicle)?
+        .with_thrust_errors(&vehicle, &window)?;
     answer.warn(&found.thrust.fit.warnings);
     for fit in [&found.roll, &found.pitch] {
         let axis = format!("{:?}", fit.axis).to_lowercase();
@@ -129,7 +130,7 @@ fn numbers(found: &ThrustAndInertia, vehicle: &Vehicle, mass: f64, answer: &mut 
         duty(*operating.start()),
         duty(*operating.end())
     );
-    let taken = format!("mass {mass} kg, thrust curve and lag taken as known");
+    let taken = format!("mass {mass} kg taken as known");
     let inverse = 1.0 / lag.value;
     for (key, fit) in [
         ("airframe.inertia_xx_kg_m2", &found.roll),

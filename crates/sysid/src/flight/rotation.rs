@@ -56,7 +56,8 @@ pub struct InertiaFit {
     pub axis: Axis,
     /// What was taken as known; the delay is the identified one.
     pub model: RotationModel,
-    /// Moment of inertia, kg m²; its error includes that of the delay, not that of thrust curve and lag.
+    /// Moment of inertia, kg m²; its error includes that of the delay; that of thrust curve and lag
+    /// if it was carried ([`super::ThrustAndInertia::with_thrust_errors`]).
     pub inertia: Estimate,
     /// Delay δ, s; without error if it was known.
     pub delay: Estimate,

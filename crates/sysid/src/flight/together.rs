@@ -5,8 +5,10 @@
 
 use super::rotation::{Axis, InertiaFit, RotationModel, SensorDelay, identify_inertia};
 use super::thrust::{ThrustFit, ThrustSettings, identify_thrust};
-use super::{FlightError, LagOn};
+use super::{FlightError, LagOn, ThrustCurve};
 use crate::recorded::InertialLog;
+use crate::regression::FitError;
+use nalgebra::SVector;
 use quad_dynamics::Vehicle;
 use std::ops::Range;
 
@@ -18,6 +20,9 @@ const SLOWEST_S: f64 = 0.5;
 /// Rounds of thrust and rotation taking turns, and the change of the common delay, s, that ends them.
 const ROUNDS: usize = 20;
 const DELAY_TOLERANCE_S: f64 = 1e-5;
+
+/// Part of a standard error over which a derivative is taken: small against the lag, whatever its error.
+const PART_OF_ERROR: f64 = 0.1;
 
 /// A window, s, of a flight.
 #[derive(Clone, Debug)]
@@ -43,6 +48,40 @@ impl ThrustAndInertia {
     /// The common delay δ of the inertial unit, s.
     pub fn delay_s(&self) -> f64 {
         0.5 * (self.roll.delay.value + self.pitch.delay.value)
+    }
+
+    /// The same with the errors of thrust curve and lag carried into both inertias.
+    ///
+    /// Above 2 Hz a moment goes nearly with the curve's slope over the lag, so that an error of the lag is one of the inertia:
+    /// `I(p)` is identified anew along each column `l_k` of the Cholesky factor of the thrust fit's covariance, and
+    /// `Σ_k (∂I/∂p · l_k)²` is added to its variance. The delay is held: the phase tells it, the amplitude tells I.
+    ///
+    /// # Errors
+    /// As [`identify_inertia`].
+    pub fn with_thrust_errors(mut self, vehicle: &Vehicle, moved: &Window<'_>) -> Result<Self, FlightError> {
+        let fit = &self.thrust.fit;
+        let factor = fit.covariance.cholesky().ok_or(FitError::Decomposition)?.l();
+        let freedom = fit.goodness.degrees_of_freedom;
+        let values = SVector::from(fit.values());
+        for found in [&mut self.roll, &mut self.pitch] {
+            let mut variance = 0.0;
+            for column in factor.column_iter() {
+                let [constant, linear, quadratic, lag_s] = (values + column * PART_OF_ERROR).into();
+                let model = RotationModel {
+                    curve: ThrustCurve {
+                        constant,
+                        linear,
+                        quadratic,
+                    },
+                    lag_s,
+                    ..found.model
+                };
+                let changed = identify_inertia(found.axis, &model, vehicle, moved.log, &moved.span)?;
+                variance += ((changed.inertia.value - found.inertia.value) / PART_OF_ERROR).powi(2);
+            }
+            found.inertia = found.inertia.with_error(variance.sqrt(), freedom);
+        }
+        Ok(self)
     }
 
     /// The model of rotation at this thrust and delay, as another axis takes it.

@@ -97,6 +97,11 @@ impl LoadCell {
         self.zero_v + self.sensitivity_v * (load + self.capacity * bow)
     }
 
+    /// One reading under a load, V.
+    pub fn read(&self, load: f64, generator: &mut Generator) -> f64 {
+        self.reading_v.read(self.response(load), generator)
+    }
+
     /// Calibrates up and down: `steps` equal loads from none to capacity and back, each read `repetitions` times.
     ///
     /// # Errors
@@ -122,7 +127,7 @@ impl LoadCell {
         Ok(repeated
             .map(|load| Sample {
                 load,
-                reading_v: self.reading_v.read(self.response(load), generator),
+                reading_v: self.read(load, generator),
             })
             .collect())
     }

@@ -3,6 +3,7 @@
 //! ```text
 //! support forces         centre of mass, mass = weight / g                        crate::centre_of_mass
 //! bifilar pendulum       I_xx, I_yy, I_zz                                         crate::pendulum
+//! load cells             volts to thrust and torque                               crate::load_cell, cells
 //! static sweep           C_T, C_Q; cubics in (ū − ū_min) V_b                      crate::rotor_static
 //! operating sweep        K_T, K_Q, ū_0 at one voltage                             crate::rotor_static
 //! PRBS about hover       c_T1, c_T2, c_Q1 .. c_Q4; ω_R is the slower pole of the thrust   crate::rotor_dynamics
@@ -14,21 +15,27 @@
 //! give: along `z_B` the rotors' thrust, known to a few percent of 14 N by the polynomials, hides a drag of tenths of a newton;
 //! the moment of rate damping is of the size of what the same few percent make of thrust differences.
 //!
+//! Intervals: cubics and line are the best ones over the settings measured; what they miss of the rotor is no matter of an interval but
+//! of a remark ([`crate::rotor_static`]). Rotor dynamics is that of the record's mean duty: excite evenly about hover.
+//!
 //! Pure: measurements in, vehicle out; no files. The pendulum's suspension takes the mass that it was given, usually from
 //! the support test. Assumptions are those of each identification; the accelerometer sits in the centre of mass.
 
+mod cells;
 mod drag;
 mod result;
 #[cfg(test)]
 mod tests;
 mod virtual_bench;
 
+pub use cells::{CellTest, Cells, DynamicReading, StaticReading};
 pub use drag::{DragFit, identify_drag};
 pub use result::{Bench, Identified, Parameter, Remarked};
 pub use virtual_bench::{LaboratoryError, VirtualLaboratory};
 
 use crate::centre_of_mass::{CentreOfMassError, Placing, locate};
 use crate::laboratory::flights::FlightSample;
+use crate::load_cell::LoadCellError;
 use crate::pendulum::{AngleSample, Damping, PendulumError, Suspension, fit_history};
 use crate::regression::FitError;
 use crate::rotor_dynamics::{
@@ -36,8 +43,8 @@ use crate::rotor_dynamics::{
     identify as respond,
 };
 use crate::rotor_static::{
-    PropellerSample, PropellerScale, Quantity, StaticError, StaticSample, coefficient, linear_gains,
-    polynomial,
+    LinearGains, PropellerSample, PropellerScale, Quantity, StaticError, StaticSample, coefficient,
+    linear_gains, polynomial,
 };
 use quad_dynamics::VehicleError;
 use quad_dynamics::vehicle::file::VehicleFile;
@@ -58,12 +65,16 @@ pub struct Measurements {
     pub placings: Vec<Placing>,
     /// Swings about `x_B`, `y_B`, `z_B`.
     pub swings: [SwingTest; 3],
-    /// Static sweep over duties and voltages.
-    pub sweep: Vec<StaticSample>,
-    /// Static sweep at one voltage, over the range in which the vehicle flies.
-    pub operating: Vec<StaticSample>,
+    /// Calibration of the stand's thrust cell, N.
+    pub thrust_cell: CellTest,
+    /// Calibration of the stand's torque cell, N m.
+    pub torque_cell: CellTest,
+    /// Static sweep over duties and voltages, each setting read several times.
+    pub sweep: Vec<StaticReading>,
+    /// Static sweep at one voltage, over the range in which the vehicle flies, each setting read several times.
+    pub operating: Vec<StaticReading>,
     /// Small pseudo-random changes of the duty about hover.
-    pub dynamic: Vec<DynamicSample>,
+    pub dynamic: Vec<DynamicReading>,
     /// A flight with fast sides.
     pub flight: Vec<FlightSample>,
 }
@@ -77,6 +88,9 @@ pub enum PipelineError {
     /// Moment of inertia.
     #[error("pendulum: {0}")]
     Pendulum(#[from] PendulumError),
+    /// Load cells.
+    #[error("load cell: {0}")]
+    LoadCell(#[from] LoadCellError),
     /// Rotor statics.
     #[error("static sweep: {0}")]
     Static(#[from] StaticError),
@@ -112,8 +126,9 @@ pub enum PipelineError {
 pub fn identify(measurements: &Measurements, nominal: &VehicleFile) -> Result<Identified, PipelineError> {
     let mut found = Identified::from_nominal(nominal)?;
     airframe(measurements, nominal, &mut found)?;
-    rotor_statics(measurements, nominal, &mut found)?;
-    rotor_dynamics(measurements, &mut found)?;
+    let cells = Cells::calibrated(&measurements.thrust_cell, &measurements.torque_cell)?;
+    rotor_statics(measurements, &cells, nominal, &mut found)?;
+    rotor_dynamics(measurements, &cells, &mut found)?;
     drag(measurements, &mut found)?;
     found.finished()
 }
@@ -150,8 +165,9 @@ fn airframe(m: &Measurements, nominal: &VehicleFile, found: &mut Identified) -> 
         found.remark(Bench::Pendulum, fit.warnings);
         // I is nearly proportional to the mass, whose error comes on top of the swing's.
         let per_mass = fit.inertia.value / mass.value;
-        let mut inertia = fit.inertia;
-        inertia.standard_error = inertia.standard_error.hypot(per_mass * mass.standard_error);
+        let inertia = fit
+            .inertia
+            .with_error(per_mass * mass.standard_error, mass.degrees_of_freedom);
         found.number(Bench::Pendulum, key, "kg m²", inertia, place);
     }
     Ok(())
@@ -159,6 +175,39 @@ fn airframe(m: &Measurements, nominal: &VehicleFile, found: &mut Identified) -> 
 
 fn rotor_statics(
     m: &Measurements,
+    cells: &Cells,
+    nominal: &VehicleFile,
+    found: &mut Identified,
+) -> Result<(), PipelineError> {
+    let sweep = cells.steady(&m.sweep);
+    let operating = cells.steady(&m.operating);
+    found.remark(
+        Bench::LoadCells,
+        cells.warnings(&[&sweep[..], &operating].concat()),
+    );
+    propeller(m, cells, &sweep, nominal, found)?;
+    polynomials(m, cells, &sweep, nominal.pwm.minimum.value, found)?;
+
+    let gains = linear_gains(&operating)?;
+    let bench = Bench::OperatingSweep;
+    found.remark(bench, gains.warnings().copied().collect());
+    let all = |g: &LinearGains| [g.zero_thrust, g.thrust_gain, g.torque_gain];
+    let again = |samples: &[StaticSample]| linear_gains(samples).map(|g| all(&g));
+    let [zero, thrust, torque] = cells.with_errors(all(&gains), &m.operating, again)?;
+    found.number(bench, "pwm.zero_thrust", "", zero, |f| &mut f.pwm.zero_thrust);
+    found.number(bench, "linear_rotor.thrust_gain_n", "N", thrust, |f| {
+        &mut f.linear_rotor.thrust_gain_n
+    });
+    found.number(bench, "linear_rotor.torque_gain_n_m", "N m", torque, |f| {
+        &mut f.linear_rotor.torque_gain_n_m
+    });
+    Ok(())
+}
+
+fn propeller(
+    m: &Measurements,
+    cells: &Cells,
+    sweep: &[StaticSample],
     nominal: &VehicleFile,
     found: &mut Identified,
 ) -> Result<(), PipelineError> {
@@ -170,51 +219,48 @@ fn rotor_statics(
         diameter_m: propeller.diameter_m.value,
         air_density_kg_m3: nominal.environment.air_density_kg_m3.value,
     };
-    let samples: Vec<PropellerSample> = m.sweep.iter().map(PropellerSample::from).collect();
-    let thrust = coefficient(&samples, &scale, Quantity::Thrust)?;
-    let torque = coefficient(&samples, &scale, Quantity::Torque)?;
-    found.remark(Bench::StaticSweep, [thrust.warnings, torque.warnings].concat());
+    let both = |samples: &[StaticSample]| {
+        let samples: Vec<PropellerSample> = samples.iter().map(PropellerSample::from).collect();
+        let thrust = coefficient(&samples, &scale, Quantity::Thrust)?;
+        Ok((thrust, coefficient(&samples, &scale, Quantity::Torque)?))
+    };
+    let (thrust, torque) = both(sweep)?;
     let bench = Bench::StaticSweep;
-    found.number(
-        bench,
-        "propeller.thrust_coefficient",
-        "",
-        thrust.parameters[0],
-        |f| result::propeller(f, |p| &mut p.thrust_coefficient),
-    );
-    found.number(
-        bench,
-        "propeller.torque_coefficient",
-        "",
-        torque.parameters[0],
-        |f| result::propeller(f, |p| &mut p.torque_coefficient),
-    );
-    found.polynomials(
-        &polynomial(&m.sweep, nominal.pwm.minimum.value, Quantity::Thrust)?,
-        &polynomial(&m.sweep, nominal.pwm.minimum.value, Quantity::Torque)?,
-    );
-
-    let gains = linear_gains(&m.operating)?;
-    let bench = Bench::OperatingSweep;
-    found.remark(bench, gains.warnings().copied().collect());
-    found.number(bench, "pwm.zero_thrust", "", gains.zero_thrust, |f| {
-        &mut f.pwm.zero_thrust
+    let estimates = [thrust.parameters[0], torque.parameters[0]];
+    found.remark(bench, [thrust.warnings, torque.warnings].concat());
+    let again = |samples: &[StaticSample]| both(samples).map(|(t, q)| [t.parameters[0], q.parameters[0]]);
+    let [thrust, torque] = cells.with_errors(estimates, &m.sweep, again)?;
+    found.number(bench, "propeller.thrust_coefficient", "", thrust, |f| {
+        result::propeller(f, |p| &mut p.thrust_coefficient)
     });
-    found.number(bench, "linear_rotor.thrust_gain_n", "N", gains.thrust_gain, |f| {
-        &mut f.linear_rotor.thrust_gain_n
+    found.number(bench, "propeller.torque_coefficient", "", torque, |f| {
+        result::propeller(f, |p| &mut p.torque_coefficient)
     });
-    found.number(
-        bench,
-        "linear_rotor.torque_gain_n_m",
-        "N m",
-        gains.torque_gain,
-        |f| &mut f.linear_rotor.torque_gain_n_m,
-    );
     Ok(())
 }
 
-fn rotor_dynamics(m: &Measurements, found: &mut Identified) -> Result<(), PipelineError> {
-    let record = |output: fn(&DynamicSample) -> f64| Record::of(&m.dynamic, |s| s.duty, output);
+fn polynomials(
+    m: &Measurements,
+    cells: &Cells,
+    sweep: &[StaticSample],
+    minimum_duty: f64,
+    found: &mut Identified,
+) -> Result<(), PipelineError> {
+    let mut estimates = Vec::with_capacity(2);
+    for quantity in [Quantity::Thrust, Quantity::Torque] {
+        let fit = polynomial(sweep, minimum_duty, quantity)?;
+        let again =
+            |samples: &[StaticSample]| polynomial(samples, minimum_duty, quantity).map(|f| f.parameters);
+        estimates.push(cells.with_errors(fit.parameters, &m.sweep, again)?);
+        found.remark(Bench::StaticSweep, fit.warnings);
+    }
+    found.polynomials(estimates[0], estimates[1]);
+    Ok(())
+}
+
+fn rotor_dynamics(m: &Measurements, cells: &Cells, found: &mut Identified) -> Result<(), PipelineError> {
+    let samples = cells.moving(&m.dynamic);
+    let record = |output: fn(&DynamicSample) -> f64| Record::of(&samples, |s| s.duty, output);
     let thrust = respond(
         &record(|s| s.thrust_n)?,
         Structure::SecondOrder,

@@ -1,7 +1,7 @@
 //! The identified vehicle: the file, the list of its identified numbers, and what must be known about them.
 
 use super::{DragFit, PipelineError};
-use crate::estimate::{Estimate, Fit, Warning};
+use crate::estimate::{Estimate, Warning};
 use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::file::{
     Number, PolynomialRotorFile, PropellerFile, RotorDynamicsFile, Triple, VehicleFile,
@@ -15,6 +15,8 @@ pub enum Bench {
     Supports,
     /// Bifilar pendulum.
     Pendulum,
+    /// Load cells of the thrust stand under known loads.
+    LoadCells,
     /// Thrust stand, duties and voltages.
     StaticSweep,
     /// Thrust stand at one voltage.
@@ -30,6 +32,7 @@ impl fmt::Display for Bench {
         f.write_str(match self {
             Self::Supports => "support forces",
             Self::Pendulum => "bifilar pendulum",
+            Self::LoadCells => "load cells",
             Self::StaticSweep => "thrust stand, static sweep over duty and voltage",
             Self::OperatingSweep => "thrust stand, static sweep over the operating range",
             Self::Response => "thrust stand, pseudo-random duties about hover",
@@ -173,11 +176,11 @@ impl Identified {
         }
     }
 
-    pub(super) fn polynomials(&mut self, thrust: &Fit<3>, torque: &Fit<3>) {
+    /// Coefficients `k_1, k_2, k_3` of both cubics.
+    pub(super) fn polynomials(&mut self, thrust: [Estimate; 3], torque: [Estimate; 3]) {
         let bench = Bench::StaticSweep;
-        self.remark(bench, [thrust.warnings.clone(), torque.warnings.clone()].concat());
-        let [t1, t2, t3] = thrust.parameters;
-        let [q1, q2, q3] = torque.parameters;
+        let [t1, t2, t3] = thrust;
+        let [q1, q2, q3] = torque;
         self.file.polynomial_rotor = Some(PolynomialRotorFile {
             thrust_k1_n_per_v: sourced(bench, t1),
             thrust_k2_n_per_v2: sourced(bench, t2),

@@ -1,16 +1,20 @@
 //! All benches of the virtual laboratory, one after the other, on one vehicle.
 
-use super::{Measurements, SwingTest};
+use super::{CellTest, DynamicReading, Measurements, StaticReading, SwingTest};
 use crate::laboratory::flights::{FlightTest, FlightTestError};
-use crate::laboratory::generator;
+use crate::laboratory::load_cells::{Channel, LoadCell, LoadCellRigError};
 use crate::laboratory::pendulum::{Axis, PendulumRig, PendulumRigError};
 use crate::laboratory::supports::{SupportError, SupportRig, icosahedral_cage};
 use crate::laboratory::thrust_stand::{
-    BenchSupply, Prbs, StandError, StaticSweep, ThrustStand, uniform_times,
+    BenchSupply, Instruments, Prbs, StandError, StaticSweep, ThrustStand, uniform_times,
 };
+use crate::laboratory::{Generator, Sensor, generator};
+use crate::rotor_dynamics::DynamicSample;
+use crate::rotor_static::StaticSample;
 use quad_dynamics::vehicle::derive::{SteadyRotor, rad_per_s};
 use quad_dynamics::{Vehicle, VehicleError};
 use quad_ndi::Settings;
+use rand::RngExt;
 
 /// The laboratory and how its tests are run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +38,9 @@ pub enum LaboratoryError {
     /// Pendulum.
     #[error(transparent)]
     Pendulum(#[from] PendulumRigError),
+    /// Load cells.
+    #[error(transparent)]
+    LoadCells(#[from] LoadCellRigError),
     /// Thrust stand.
     #[error(transparent)]
     Stand(#[from] StandError),
@@ -55,13 +62,19 @@ const SWEEP_VOLTAGES_V: (f64, f64) = (9.9, 12.6);
 /// Duties of the sweep over the operating range, and the range: the speeds at which the propeller was measured.
 const OPERATING_DUTIES: u32 = 101;
 const OPERATING_RPM: (f64, f64) = (2377.0, 6528.0);
-/// Readings averaged for a point of a sweep.
+/// Readings of a setting of a sweep, one after the other.
 const READINGS: usize = 10;
-/// Amplitude of the pseudo-random duty, its bit length, s, sampling period, s, and duration, s: thrust within a tenth of hover.
+/// Equal loads from none to a cell's capacity, up and down, and readings of each on either way.
+const CELL_STEPS: u32 = 10;
+const CELL_READINGS: u32 = 5;
+/// Amplitude of the pseudo-random duty, its bit length, s, and sampling period, s: thrust within a tenth of hover.
 const AMPLITUDE: f64 = 0.0015;
 const HOLD_S: f64 = 0.03;
 const PERIOD_S: f64 = 0.005;
-const DURATION_S: f64 = 8.0;
+/// Bits of the first half of the record; the second half has the same ones inverted, so that the mean duty is hover's and what
+/// is even in the excitation drops out. Source: Godfrey, *Perturbation Signals for System Identification*, 1993 (inverse-repeat
+/// sequences).
+const HALF_BITS: u32 = 133;
 
 impl VirtualLaboratory {
     /// The usual rigs with a controller that is asked for this.
@@ -92,28 +105,28 @@ impl VirtualLaboratory {
                 samples: self.pendulum.swing(vehicle, axis, &mut stream(test))?,
             })
         };
-        let stand = ThrustStand::of(vehicle)?;
+        let stand = Stand::of(vehicle, &mut stream(10))?;
         let steady = SteadyRotor::of(vehicle)?;
         let nominal_v = vehicle.require_battery("the virtual laboratory")?.nominal_voltage;
         let regulated = |voltage_v| BenchSupply::Regulated { voltage_v };
         let pwm = &vehicle.pwm;
         let sweep = StaticSweep {
-            duties: evenly(pwm.minimum, pwm.maximum, SWEEP_DUTIES),
+            duties: repeated(evenly(pwm.minimum, pwm.maximum, SWEEP_DUTIES)),
             supplies: evenly(SWEEP_VOLTAGES_V.0, SWEEP_VOLTAGES_V.1, SWEEP_VOLTAGES)
                 .into_iter()
                 .map(regulated)
                 .collect(),
-            readings: READINGS,
+            readings: 1,
         };
         let duty_at = |rpm| pwm.minimum + steady.duty(rad_per_s(rpm), nominal_v);
         let operating = StaticSweep {
-            duties: evenly(
+            duties: repeated(middles(
                 duty_at(OPERATING_RPM.0),
                 duty_at(OPERATING_RPM.1),
                 OPERATING_DUTIES,
-            ),
+            )),
             supplies: vec![regulated(nominal_v)],
-            readings: READINGS,
+            readings: 1,
         };
         let hover = steady.speed_at_thrust(vehicle.hover_thrust_per_rotor());
         let signal = Prbs {
@@ -129,17 +142,127 @@ impl VirtualLaboratory {
                 swing(Axis::Pitch, 2)?,
                 swing(Axis::Yaw, 3)?,
             ],
+            thrust_cell: stand.thrust_cell.calibrate(&mut stream(8))?,
+            torque_cell: stand.torque_cell.calibrate(&mut stream(9))?,
             sweep: stand.sweep(&sweep, &mut stream(4))?,
             operating: stand.sweep(&operating, &mut stream(5))?,
-            dynamic: stand.record(
-                &uniform_times(PERIOD_S, DURATION_S)?,
-                signal.signal(),
-                regulated(nominal_v),
-                &mut stream(6),
-            )?,
+            dynamic: stand.record(&signal, regulated(nominal_v), &mut stream(6))?,
             flight: self.flight.fly(vehicle, &self.controller, &mut stream(7))?,
         })
     }
+}
+
+/// The thrust stand with its load cells.
+struct Stand {
+    /// Rotor, supply, tachometer and voltmeter; thrust and torque as the cells feel them, shaken by the running rotor.
+    stand: ThrustStand,
+    thrust_cell: Cell,
+    torque_cell: Cell,
+}
+
+/// One cell of its kind: its departure from a straight line lies anywhere within what the data sheet allows.
+struct Cell {
+    cell: LoadCell,
+    /// The data sheet's limit.
+    non_linearity: f64,
+}
+
+impl Cell {
+    fn one_of(kind: LoadCell, generator: &mut Generator) -> Self {
+        Self {
+            cell: LoadCell {
+                non_linearity: kind.non_linearity * generator.random_range(-1.0..1.0),
+                ..kind
+            },
+            non_linearity: kind.non_linearity,
+        }
+    }
+
+    fn calibrate(&self, generator: &mut Generator) -> Result<CellTest, LoadCellRigError> {
+        Ok(CellTest {
+            capacity: self.cell.capacity,
+            non_linearity: self.non_linearity,
+            samples: self.cell.calibrate(CELL_STEPS, CELL_READINGS, generator)?,
+        })
+    }
+
+    fn read(&self, load: f64, generator: &mut Generator) -> f64 {
+        self.cell.read(load, generator)
+    }
+}
+
+impl Stand {
+    fn of(vehicle: &Vehicle, generator: &mut Generator) -> Result<Self, StandError> {
+        let usual = Instruments::default();
+        let mut stand = ThrustStand::of(vehicle)?;
+        // The stand's usual noise is that of the running rotor; digits and limits are the cells'.
+        stand.instruments.thrust = Sensor::noisy(usual.thrust.noise);
+        stand.instruments.torque = Sensor::noisy(usual.torque.noise);
+        Ok(Self {
+            stand,
+            thrust_cell: Cell::one_of(LoadCell::of(vehicle, Channel::Thrust), generator),
+            torque_cell: Cell::one_of(LoadCell::of(vehicle, Channel::TorqueClockwise), generator),
+        })
+    }
+
+    fn sweep(
+        &self,
+        sweep: &StaticSweep,
+        generator: &mut Generator,
+    ) -> Result<Vec<StaticReading>, StandError> {
+        let felt = self.stand.sweep(sweep, generator)?;
+        let mut reading = |s: &StaticSample| StaticReading {
+            duty: s.duty,
+            battery_voltage_v: s.battery_voltage_v,
+            thrust_cell_v: self.thrust_cell.read(s.thrust_n, generator),
+            torque_cell_v: self.torque_cell.read(s.torque_n_m, generator),
+            speed_rad_s: s.speed_rad_s,
+        };
+        Ok(felt.iter().map(&mut reading).collect())
+    }
+
+    fn record(
+        &self,
+        signal: &Prbs,
+        supply: BenchSupply,
+        generator: &mut Generator,
+    ) -> Result<Vec<DynamicReading>, StandError> {
+        let half_s = f64::from(HALF_BITS) * HOLD_S;
+        let bits = signal.signal();
+        let centre = signal.centre;
+        let duty = |time_s: f64| {
+            // As in the sequence itself: a sample at the turn must not depend on rounding.
+            if time_s < half_s - 1e-9 {
+                bits(time_s)
+            } else {
+                2.0 * centre - bits(time_s - half_s)
+            }
+        };
+        let times = uniform_times(PERIOD_S, 2.0 * half_s - PERIOD_S)?;
+        let felt = self.stand.record(&times, duty, supply, generator)?;
+        let mut reading = |s: &DynamicSample| DynamicReading {
+            time_s: s.time_s,
+            duty: s.duty,
+            battery_voltage_v: s.battery_voltage_v,
+            thrust_cell_v: self.thrust_cell.read(s.thrust_n, generator),
+            torque_cell_v: self.torque_cell.read(s.torque_n_m, generator),
+            speed_rad_s: s.speed_rad_s,
+        };
+        Ok(felt.iter().map(&mut reading).collect())
+    }
+}
+
+/// Each duty as often as it is read.
+fn repeated(duties: Vec<f64>) -> Vec<f64> {
+    let read = |duty| std::iter::repeat_n(duty, READINGS);
+    duties.into_iter().flat_map(read).collect()
+}
+
+/// Middles of equal parts of a range. A line through them misses as the line through the whole range does, to `1/n²` of what
+/// it misses; points from end to end weigh the ends by `1/n` too much.
+fn middles(start: f64, end: f64, count: u32) -> Vec<f64> {
+    let part = (end - start) / f64::from(count);
+    (0..count).map(|i| start + part * (f64::from(i) + 0.5)).collect()
 }
 
 fn evenly(start: f64, end: f64, count: u32) -> Vec<f64> {

@@ -12,6 +12,7 @@
 mod correlated;
 mod linear;
 mod nonlinear;
+mod pure_error;
 mod total;
 
 pub use linear::{Row, linear};

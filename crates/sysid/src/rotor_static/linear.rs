@@ -1,8 +1,8 @@
 //! The line over the operating range, whose zero is the zero-thrust command.
 
-use super::{Quantity, StaticError, StaticSample, inspected};
+use super::{ONE_VOLTAGE, StaticError, StaticSample, over_settings};
 use crate::estimate::{Estimate, Fit, Warning};
-use crate::regression::{Row, linear};
+use crate::regression::Row;
 
 /// Gains of the linear rotor: `T = K_T (ū − ū_0)`, `Q = K_Q (ū − ū_0)`.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,10 +32,6 @@ impl LinearGains {
     }
 }
 
-/// Largest spread of the voltage, relative to its mean, that still counts as one voltage: noise and sag of a
-/// reading. Thrust goes at most with the square of the voltage, so 2 % of it are at most 4 % of thrust.
-const ONE_VOLTAGE: f64 = 0.02;
-
 /// Fits the lines over samples of one voltage within the operating range.
 ///
 /// ```text
@@ -44,8 +40,8 @@ const ONE_VOLTAGE: f64 = 0.02;
 /// var K_Q = s_Q²/Σ v² + (∂K_Q/∂ū_0)² var ū_0
 /// ```
 ///
-/// The last line takes the noise of thrust and torque as independent. The intervals hold for the noise; what the line
-/// misses of the rotor's curve is announced as correlated residuals.
+/// The last line takes the noise of thrust and torque as independent. The intervals hold for the noise, see
+/// [`crate::rotor_static`] on repeated readings; what the line misses of the rotor's curve is announced.
 ///
 /// # Errors
 /// Fewer than three samples or one duty only, several voltages, a slope that is not told from zero, numbers not finite.
@@ -59,7 +55,7 @@ pub fn linear_gains(samples: &[StaticSample]) -> Result<LinearGains, StaticError
         })
         .collect();
     let duties: Vec<f64> = samples.iter().map(|s| s.duty).collect();
-    let thrust = inspected(linear(&rows)?, &duties, &column(samples, Quantity::Thrust));
+    let thrust = over_settings(&rows, samples, &duties)?;
     let [intercept, gain] = thrust.values();
     if !(gain > 0.0 && thrust.parameters[1].interval().lower > 0.0) {
         return Err(StaticError::NoSlope {
@@ -77,7 +73,7 @@ pub fn linear_gains(samples: &[StaticSample]) -> Result<LinearGains, StaticError
             y: s.torque_n_m,
         })
         .collect();
-    let torque = inspected(linear(&rows)?, &duties, &column(samples, Quantity::Torque));
+    let torque = over_settings(&rows, samples, &duties)?;
     Ok(LinearGains {
         thrust_gain: thrust.parameters[1],
         torque_gain: with_uncertain_zero(torque.parameters[0], &rows, zero_thrust.standard_error),
@@ -96,10 +92,6 @@ fn with_uncertain_zero(gain: Estimate, rows: &[Row<1>], zero_error: f64) -> Esti
         standard_error: gain.standard_error.hypot(per_zero * zero_error),
         ..gain
     }
-}
-
-fn column(samples: &[StaticSample], quantity: Quantity) -> Vec<f64> {
-    samples.iter().map(|s| s.of(quantity)).collect()
 }
 
 fn one_voltage(samples: &[StaticSample]) -> Result<(), StaticError> {

@@ -10,6 +10,12 @@
 //! far better than thrust and torque. An interval speaks of noise only: a bias of a force sensor shifts an estimate and is
 //! in no interval, so tare before a test. Where the model misses the rotor's curve by more than the noise, a warning says so.
 //!
+//! Cubics and lines are not the rotor's law: an interval is that of the best curve over the settings measured. **Read each setting
+//! several times**, best in a second pass: then the scatter of repeated readings, which is noise alone, makes the interval, and a
+//! test tells whether the curve misses more than that ([`Warning::CurveMisses`]). With one reading of a setting, or fewer than ten
+//! repetitions in all, noise and misfit can't be told apart; intervals come from the residuals and are wider than the noise
+//! where the curve misses much.
+//!
 //! Valid over the speeds, duties and voltages measured. Source: thesis, chapter 4.5 and tables 4.3 to 4.5; Brandt and
 //! Selig, *Propeller Performance Data at Low Reynolds Numbers*, AIAA 2011-1255.
 
@@ -27,7 +33,8 @@ pub use mechanistic::{
 };
 
 use crate::estimate::{Fit, Warning};
-use crate::regression::FitError;
+use crate::lack_of_fit::LackOfFit;
+use crate::regression::{FitError, Row, linear};
 use crate::residual::Whiteness;
 use serde::{Deserialize, Serialize};
 
@@ -121,6 +128,54 @@ const LAGS: usize = 5;
 
 /// Number of equal readings at the top from which a sensor counts as saturated.
 const SATURATED_FROM: usize = 3;
+
+/// Largest spread of the voltage, relative to its mean, that still counts as one voltage: noise and sag of a
+/// reading. Thrust goes at most with the square of the voltage, so 2 % of it are at most 4 % of thrust.
+const ONE_VOLTAGE: f64 = 0.02;
+
+/// Numbers the settings of the stand, a duty and a voltage each, in the order of their first reading: for each sample that
+/// of its own.
+fn settings(samples: &[StaticSample]) -> Vec<usize> {
+    let mut known: Vec<StaticSample> = Vec::new();
+    let same = |a: &StaticSample, b: &StaticSample| {
+        let apart = (a.battery_voltage_v - b.battery_voltage_v).abs();
+        a.duty == b.duty && apart <= ONE_VOLTAGE * a.battery_voltage_v
+    };
+    let mut number = |sample: &StaticSample| {
+        // From the last one on: repeated readings usually follow each other.
+        known.iter().rposition(|k| same(k, sample)).unwrap_or_else(|| {
+            known.push(*sample);
+            known.len() - 1
+        })
+    };
+    samples.iter().map(&mut number).collect()
+}
+
+/// A curve over samples of the stand: intervals by the scatter of repeated readings where there are enough, and what a
+/// reader must know.
+fn over_settings<const N: usize>(
+    rows: &[Row<N>],
+    samples: &[StaticSample],
+    abscissa: &[f64],
+) -> Result<Fit<N>, FitError> {
+    let fit = linear(rows)?;
+    let data: Vec<f64> = rows.iter().map(|row| row.y).collect();
+    let settings = settings(samples);
+    let Some(test) = LackOfFit::test(&fit.residuals, &settings, N) else {
+        return Ok(inspected(fit, abscissa, &data));
+    };
+    let regressors: Vec<[f64; N]> = rows.iter().map(|row| row.regressors).collect();
+    let mut fit = fit.with_pure_error(&regressors, &settings, &test);
+    if test.is_significant() {
+        fit.warnings.push(Warning::CurveMisses {
+            misfit: test.misfit,
+            p_value: test.p_value,
+        });
+        fit.warnings.extend(saturation(abscissa, &data));
+        return Ok(fit);
+    }
+    Ok(inspected(fit, abscissa, &data))
+}
 
 /// Adds what a reader must know: residuals that follow a curve over the abscissa, readings stuck at the top.
 fn inspected<const N: usize>(mut fit: Fit<N>, abscissa: &[f64], data: &[f64]) -> Fit<N> {
