@@ -41,6 +41,12 @@ pub(super) struct Energy {
 }
 
 impl Energy {
+    /// None.
+    pub(super) const NONE: Self = Self {
+        delivered: 0.0,
+        missed: 0.0,
+    };
+
     /// The same with the energy missed at a floor, J, below which differences are the quadrature's and not the flight's.
     pub(super) fn resolved(self, floor: f64) -> Self {
         Self {
@@ -92,10 +98,7 @@ impl Supply {
 
     /// Energy with the laser on where the receiver catches at least this share; trapezoidal rule.
     pub(super) fn energy(&self, share: f64) -> Energy {
-        let mut energy = Energy {
-            delivered: 0.0,
-            missed: 0.0,
-        };
+        let mut energy = Energy::NONE;
         for pair in self.0.windows(2) {
             let half = 0.5 * (pair[1].time_s - pair[0].time_s);
             for p in pair.iter().filter(|p| p.received >= share * p.arriving) {

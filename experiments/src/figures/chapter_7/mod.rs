@@ -4,6 +4,7 @@ use crate::item::Item;
 
 mod annealed;
 mod crossed;
+mod crossed_energy;
 mod energy;
 mod figure_7_1;
 mod figure_7_14;
