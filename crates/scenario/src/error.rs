@@ -4,7 +4,7 @@ use crate::read::Place;
 use quad_estimation::sensor::SensorError;
 use quad_ndi::{ControllerError, TrajectoryError};
 use sifre::quadrotor::QuadrotorError;
-use sifre::{GridError, ScheduleError, SimulationError};
+use sifre::{GridError, ResumeError, ScheduleError, SimulationError, SnapshotError};
 
 /// Why a scenario can't be read or built.
 #[derive(Debug, thiserror::Error)]
@@ -173,6 +173,18 @@ pub enum ScenarioError {
     /// A simulation that can't be.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
+    /// A saved flight that is of another scenario.
+    #[error("the saved flight can't go on in this scenario: {0}")]
+    Snapshot(#[from] SnapshotError),
+}
+
+impl From<ResumeError> for ScenarioError {
+    fn from(error: ResumeError) -> Self {
+        match error {
+            ResumeError::Simulation(source) => source.into(),
+            ResumeError::Snapshot(source) => source.into(),
+        }
+    }
 }
 
 /// What is wrong with an estimator's key.

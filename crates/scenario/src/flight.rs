@@ -4,8 +4,8 @@ use crate::build::{AgentInfo, Built, Goal};
 use crate::error::ScenarioError;
 use crate::file::{BoxLimits, OutputFile, StopFile};
 use sifre::{
-    AgentEvent, Event, Observer, Progress, RunReport, RunStatus, Scene, Simulation, SimulationError,
-    StopCondition, Who,
+    AgentEvent, Event, Member, Observer, Progress, RunReport, RunStatus, Scene, Simulation, SimulationError,
+    SimulationSnapshot, StopCondition, Who,
 };
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -59,10 +59,26 @@ impl Built {
     /// # Errors
     /// No agents; two of one name; one that looks at itself or at one that isn't there.
     pub fn fly(self) -> Result<Flight, ScenarioError> {
+        self.fly_in(|members| Ok(Simulation::new(members)?))
+    }
+
+    /// The same, going on from a saved flight of these agents ([`Simulation::save`]): bit for bit as if it had never been
+    /// interrupted, if the scenario is the same.
+    ///
+    /// # Errors
+    /// As [`Self::fly`]; a snapshot of other agents, kinds or steps.
+    pub fn fly_on(self, from: &SimulationSnapshot) -> Result<Flight, ScenarioError> {
+        self.fly_in(|members| Ok(Simulation::resume(members, from)?))
+    }
+
+    fn fly_in(
+        self,
+        simulation: impl FnOnce(Vec<Member>) -> Result<Simulation, ScenarioError>,
+    ) -> Result<Flight, ScenarioError> {
         let quadrotors = self.agents.iter().filter(|agent| agent.is_quadrotor());
         let quadrotors: Vec<String> = quadrotors.map(|agent| agent.name.clone()).collect();
         let lost = Arc::new(AtomicBool::new(false));
-        let mut simulation = Simulation::new(self.members)?;
+        let mut simulation = simulation(self.members)?;
         for condition in conditions(&self.stop, quadrotors, self.goals, &lost) {
             simulation.stop_when(condition)?;
         }

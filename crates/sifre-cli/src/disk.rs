@@ -63,6 +63,34 @@ pub(crate) fn read(path: &Path) -> Result<String, Failure> {
     })
 }
 
+/// Writes a file beside the one of this name, then gives it the name: whenever the program ends, one of the two is whole.
+pub(crate) fn replace(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+    let fresh = beside(path);
+    fs::write(&fresh, content)
+        .and_then(|()| fs::rename(&fresh, path))
+        .map_err(|source| Failure::Write {
+            path: path.to_owned(),
+            source,
+        })
+}
+
+/// Whether a file can be replaced, before a long flight and not after it.
+pub(crate) fn can_be_replaced(path: &Path) -> Result<(), Failure> {
+    let fresh = beside(path);
+    fs::write(&fresh, "")
+        .and_then(|()| fs::remove_file(&fresh))
+        .map_err(|source| Failure::Write {
+            path: path.to_owned(),
+            source,
+        })
+}
+
+fn beside(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".new");
+    name.into()
+}
+
 /// Writes a file anew.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     fs::write(path, content).map_err(|source| Failure::Write {

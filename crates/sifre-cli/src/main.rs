@@ -16,6 +16,7 @@ mod plot;
 mod recorder;
 mod report;
 mod run;
+mod saved;
 mod schema;
 mod select_level;
 mod sweep;

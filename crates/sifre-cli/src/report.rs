@@ -5,6 +5,7 @@ use scenario::{Ending, Metric};
 use serde_json::{Map, Value, json};
 use sifre::Event;
 use std::io::Write;
+use std::path::PathBuf;
 
 /// What a flight did.
 #[derive(Debug)]
@@ -21,6 +22,10 @@ pub(crate) struct Report {
     pub(crate) notes: Vec<String>,
     /// Where it is recorded.
     pub(crate) output: Option<String>,
+    /// Where the flight as it is was saved.
+    pub(crate) saved: Option<PathBuf>,
+    /// When it began to be flown, s; not 0 if it went on from a saved one.
+    pub(crate) from_s: f64,
     /// Time that it took, s.
     pub(crate) wall_s: f64,
 }
@@ -60,6 +65,8 @@ impl Report {
             "metrics": object(&self.metrics),
             "notes": self.notes,
             "output": self.output,
+            "from_s": self.from_s,
+            "saved": self.saved.as_ref().map(|path| path.display().to_string()),
             "exit_code": self.exit().code(),
         })
     }
@@ -68,7 +75,7 @@ impl Report {
     pub(crate) fn text(&self) -> String {
         let report = &self.ending.report;
         let rate = if self.wall_s > 0.0 {
-            report.time_s / self.wall_s
+            (report.time_s - self.from_s) / self.wall_s
         } else {
             0.0
         };
@@ -85,6 +92,9 @@ impl Report {
         }
         if let Some(output) = &self.output {
             text += &format!("recorded in {output}\n");
+        }
+        if let Some(saved) = &self.saved {
+            text += &format!("saved in {}, go on with --resume\n", saved.display());
         }
         text
     }

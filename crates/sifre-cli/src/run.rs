@@ -1,13 +1,13 @@
 //! `sifre run`: flies a scenario and records it.
 
-use crate::disk::Beside;
+use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::report::{self, Report};
 use crate::varied::{Setting, Template, setting};
-use crate::{interrupt, recorder};
+use crate::{interrupt, recorder, saved};
 use indicatif::{ProgressBar, ProgressStyle};
-use scenario::{Files, Flight, MetricsBox, Scenario};
-use sifre::{Event, Observer, Progress};
+use scenario::{Flight, MetricsBox, Scenario};
+use sifre::{Event, Observer, Progress, RunStatus};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -23,6 +23,13 @@ pub(crate) struct Arguments {
     /// Record nothing.
     #[arg(long, conflicts_with = "out")]
     no_output: bool,
+    /// Save the flight as it is when it ends, is stopped or interrupted, to go on with --resume.
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+    /// Go on from a saved flight, with a later `duration_s` if it had come to its end. Records and sums up what is flown from there on;
+    /// the recording needs a name of its own.
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
     /// Set a key of the scenario: `--set quadrotor.alpha.level=5`. May be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<Setting>,
@@ -48,7 +55,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     } else {
         progress_bar(scenario.duration_s)
     };
-    let report = fly(&scenario, &Beside::of(&arguments.scenario), &bar)?;
+    if let Some(to) = &arguments.save {
+        disk::can_be_replaced(to)?;
+    }
+    let report = fly(&scenario, arguments, &bar)?;
     bar.finish_and_clear();
     for note in &report.notes {
         eprintln!("note: {note}");
@@ -65,17 +75,23 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
 }
 
 /// Flies a scenario to its end and records it where it says.
-fn fly(scenario: &Scenario, files: &dyn Files, bar: &ProgressBar) -> Result<Report, Failure> {
-    let built = scenario.build(files)?;
-    let (selection, notes) = (built.selection(), built.notes.clone());
-    let mut flight = built.fly()?;
+fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<Report, Failure> {
+    let built = scenario.build(&Beside::of(&arguments.scenario))?;
+    let (selection, mut notes) = (built.selection(), built.notes.clone());
+    let mut flight = match &arguments.resume {
+        Some(from) => saved::resume(built, from)?,
+        None => built.fly()?,
+    };
     let (step, path) = (flight.output.step_s, flight.output.path.clone());
     if let Some(path) = &path {
+        if arguments.resume.is_some() {
+            saved::leave_alone(Path::new(path))?;
+        }
         let format = scenario.output.form();
         recorder::attach(&mut flight.simulation, Path::new(path), format, step, selection)?;
     }
     let metrics = flight.simulation.attach(step, MetricsBox::default())?;
-    let begin = Instant::now();
+    let (begin, from_s) = (Instant::now(), flight.simulation.now_s());
     let ending = flight.run(&mut Bar { bar })?;
     let wall_s = begin.elapsed().as_secs_f64();
     let metrics = flight.simulation.detach::<MetricsBox>(metrics);
@@ -83,6 +99,12 @@ fn fly(scenario: &Scenario, files: &dyn Files, bar: &ProgressBar) -> Result<Repo
         .and_then(Result::ok)
         .map_or_else(Vec::new, |m| m.metrics());
     finish(&mut flight, path.as_deref(), ending.end)?;
+    let diverged = matches!(ending.report.status, RunStatus::Diverged { .. });
+    match &arguments.save {
+        Some(to) if diverged => notes.push(format!("{} not written: the flight diverged", to.display())),
+        Some(to) => saved::save(&flight, to)?,
+        None => {}
+    }
     Ok(Report {
         scenario: scenario.name.clone(),
         ending,
@@ -90,6 +112,8 @@ fn fly(scenario: &Scenario, files: &dyn Files, bar: &ProgressBar) -> Result<Repo
         metrics,
         notes,
         output: path,
+        saved: arguments.save.clone().filter(|_| !diverged),
+        from_s,
         wall_s,
     })
 }

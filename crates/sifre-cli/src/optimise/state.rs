@@ -8,7 +8,6 @@ use crate::exit::Failure;
 use quad_dynamics::Level;
 use scenario::Algorithm;
 use serde::{Deserialize, Serialize};
-use std::fs;
 use std::path::Path;
 use wpt_optim::optimisers::{
     Annealing, AnnealingSettings, Evolution, EvolutionSettings, LineSearch, LineSearchSettings, NelderMead,
@@ -99,14 +98,11 @@ impl State {
 
     /// Writes it, whole at any time.
     pub(super) fn write(&self, path: &Path) -> Result<(), Failure> {
-        let refuse = |source| Failure::Write {
+        let text = serde_json::to_string(self).map_err(|error| Failure::Write {
             path: path.to_owned(),
-            source,
-        };
-        let text = serde_json::to_string(self).map_err(|error| refuse(error.into()))?;
-        let beside = path.with_extension("json.new");
-        fs::write(&beside, text).map_err(refuse)?;
-        fs::rename(&beside, path).map_err(refuse)
+            source: error.into(),
+        })?;
+        disk::replace(path, text)
     }
 }
 

@@ -3,6 +3,7 @@
 //! A last line that was cut off is flown again.
 
 use super::Row;
+use crate::disk;
 use crate::exit::Failure;
 use std::fs::{self, File, OpenOptions};
 use std::io::{ErrorKind, Write};
@@ -54,12 +55,7 @@ impl Journal {
         for row in &rows {
             whole += &line(row);
         }
-        // Beside it first: whenever the program ends, one of the two is whole.
-        let mut fresh = path.as_os_str().to_owned();
-        fresh.push(".new");
-        fs::write(&fresh, whole)
-            .and_then(|()| fs::rename(&fresh, &path))
-            .map_err(refuse)?;
+        disk::replace(&path, whole)?;
         let file = OpenOptions::new().append(true).open(&path).map_err(refuse)?;
         Ok(Self { rows, path, file })
     }

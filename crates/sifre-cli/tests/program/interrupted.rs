@@ -1,6 +1,7 @@
 //! Ctrl-C: what was recorded stays readable, and the exit code says so.
 #![cfg(unix)]
 
+use crate::saved::rows;
 use crate::support::{Folder, Ran, ready};
 use sifre::Recording;
 use std::fs::{self, File};
@@ -73,6 +74,29 @@ fn exact_an_interrupted_flight_is_readable() {
                 .all(|(k, ns)| *ns == k * 10_000_000)
         );
     }
+}
+
+/// A flight interrupted anywhere goes on to the same bytes.
+#[test]
+fn exact_an_interrupted_flight_goes_on() {
+    let folder = Folder::new("interrupted-saved");
+    let (scenario, end) = (ready("gust"), "duration_s=100000");
+    let arguments = ["run", "-q", &scenario, "-o", "first.csv", "--save", "flight.json"];
+    let child = start(&folder, &[&arguments[..], &["--set", end]].concat());
+    wait_for(&folder.path("first.csv"), 20_000);
+    interrupt(child).exits(130).says(&["interrupted"]);
+    let read = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
+    let saved: serde_json::Value = serde_json::from_str(&read("flight.json")).unwrap();
+    let now_s = saved["time_ns"].as_u64().unwrap() as f64 * 1e-9;
+    let end = format!("duration_s={}", now_s.ceil() + 1.0);
+    let fly = |more: &[&str]| {
+        let arguments = ["run", "-q", &scenario, "--set", &end];
+        folder.run(&[&arguments[..], more].concat()).exits(0);
+    };
+    fly(&["-o", "second.csv", "--resume", "flight.json"]);
+    fly(&["-o", "whole.csv"]);
+    let (first, second) = (read("first.csv"), read("second.csv"));
+    assert!(format!("{first}{}", rows(&second)) == read("whole.csv"));
 }
 
 /// An interrupted sweep goes on where it was, and its table is that of one that was not interrupted.

@@ -5,6 +5,7 @@ mod commands;
 mod interrupted;
 mod optimise;
 mod questions;
+mod saved;
 mod support;
 mod sweeps;
 mod uncertainty;

@@ -1,0 +1,48 @@
+//! Flights saved to go on later: the engine's snapshots as files.
+
+use crate::disk;
+use crate::exit::Failure;
+use scenario::{Built, Flight};
+use sifre::{SimulationSnapshot, SnapshotError};
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// The flight of a scenario, going on from a file.
+pub(crate) fn resume(built: Built, from: &Path) -> Result<Flight, Failure> {
+    let file = File::open(from).map_err(|source| Failure::Read {
+        path: from.to_owned(),
+        source,
+    })?;
+    let refuse =
+        |error: SnapshotError| Failure::Usage(format!("{}: not a saved flight: {error}", from.display()));
+    let snapshot = SimulationSnapshot::read_json(BufReader::new(file)).map_err(refuse)?;
+    let flight = built.fly_on(&snapshot)?;
+    let (now_s, end_s) = (flight.simulation.now_s(), flight.duration_s);
+    if now_s >= end_s {
+        return Err(Failure::Usage(format!(
+            "{} is at {now_s} s and the scenario ends at {end_s} s: set a later `duration_s`",
+            from.display()
+        )));
+    }
+    Ok(flight)
+}
+
+/// Writes the flight as it is, whole at any time.
+pub(crate) fn save(flight: &Flight, to: &Path) -> Result<(), Failure> {
+    let mut text = Vec::new();
+    let written = flight.simulation.save().and_then(|s| s.write_json(&mut text));
+    written.map_err(|error| Failure::Flight(format!("{}: can't be saved: {error}", to.display())))?;
+    disk::replace(to, text)
+}
+
+/// Refuses a recording that is there: the one of the flight so far must not be written over.
+pub(crate) fn leave_alone(recording: &Path) -> Result<(), Failure> {
+    if recording.exists() {
+        return Err(Failure::Usage(format!(
+            "{} is there already, perhaps from the flight so far: record what comes under another name with --out",
+            recording.display()
+        )));
+    }
+    Ok(())
+}

@@ -1,0 +1,79 @@
+//! Flights saved and gone on with.
+
+use crate::support::{Folder, ready};
+use std::fs;
+
+/// A CSV recording without its two lines of head: units and names.
+pub(crate) fn rows(csv: &str) -> &str {
+    let after = |text| str::split_once(text, '\n').map_or("", |(_, rest)| rest);
+    after(after(csv))
+}
+
+/// Two parts recorded one after the other are, byte for byte, the recording of the whole flight: with an estimator in the loop, with gusts,
+/// with stations that track, and with steps that don't divide the instant of saving.
+#[test]
+fn exact_two_parts_are_the_whole() {
+    for name in [
+        "estimator-in-the-loop",
+        "gust",
+        "two-quadrotors",
+        "level-change",
+        "wrong-start",
+    ] {
+        let folder = Folder::new(&format!("saved-{name}"));
+        let scenario = ready(name);
+        let fly = |end_s: &str, more: &[&str]| {
+            let end = format!("duration_s={end_s}");
+            let mut arguments = vec!["run", "-q", &scenario, "--set", &end];
+            arguments.extend(more);
+            folder.run(&arguments)
+        };
+        fly("2.5", &["-o", "whole.csv"]).exits(0);
+        let first = fly("1.2345", &["-o", "first.csv", "--save", "flight.json"]).exits(0);
+        assert!(first.text().contains("saved in flight.json"), "{name}");
+        fly("2.5", &["-o", "second.csv", "--resume", "flight.json"]).exits(0);
+        let read = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
+        let (first, second) = (read("first.csv"), read("second.csv"));
+        let rows = rows(&second);
+        assert!(rows.lines().count() > 10, "{name}");
+        assert!(format!("{first}{rows}") == read("whole.csv"), "{name}");
+    }
+}
+
+#[test]
+fn exact_what_can_not_go_on_is_told() {
+    let folder = Folder::new("saved-badly");
+    let hover = ready("hover");
+    folder
+        .run(&["run", "-q", &hover, "-o", "a.csv", "--save", "flight.json"])
+        .exits(0);
+    let on = |more: &[&str]| {
+        let mut arguments = vec!["run", "-q", &hover, "--resume"];
+        arguments.extend(more);
+        folder.run(&arguments)
+    };
+    on(&["flight.json", "--no-output"])
+        .exits(2)
+        .says(&["flight.json", "set a later `duration_s`"]);
+    let later = ["--set", "duration_s=100"];
+    on(&[&["flight.json", "-o", "a.csv"], &later[..]].concat())
+        .exits(2)
+        .says(&["a.csv is there already", "--out"]);
+    on(&[&["a.csv", "--no-output"], &later[..]].concat())
+        .exits(2)
+        .says(&["a.csv: not a saved flight"]);
+    on(&[&["nowhere.json", "--no-output"], &later[..]].concat())
+        .exits(2)
+        .says(&["nowhere.json: can't be read"]);
+    let other = ready("two-quadrotors");
+    folder
+        .run(&["run", "-q", &other, "--no-output", "--resume", "flight.json"])
+        .exits(2)
+        .says(&["can't go on in this scenario"]);
+    // Before the flight, not after it.
+    folder
+        .run(&["run", "-q", &hover, "-o", "b.csv", "--save", "no/folder.json"])
+        .exits(3)
+        .says(&["no/folder.json: can't be written"]);
+    assert!(!folder.path("b.csv").exists());
+}
