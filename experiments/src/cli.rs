@@ -33,7 +33,7 @@ pub struct Arguments {
     chore: Option<Chore>,
     /// Items to make, such as `6.4 F.1 table-4.3`; all if none is named.
     ids: Vec<String>,
-    /// Only the items of this chapter or appendix (`6`, `F`); may be repeated.
+    /// Only the items of this chapter or appendix (`6`, `F`), or those not in the source (`beyond`, `est`); may be repeated.
     #[arg(long, value_name = "N")]
     chapter: Vec<String>,
     /// List the items with their claims, and make nothing.

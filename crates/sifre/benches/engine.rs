@@ -102,7 +102,7 @@ fn thousand(bencher: Bencher<'_, '_>, execution: Execution) {
         simulation.execute(execution);
         simulation
     };
-    bencher
-        .with_inputs(thousand)
-        .bench_local_refs(|simulation| simulation.run(10.0, &mut ()).expect("an end after the present"));
+    bencher.with_inputs(thousand).bench_local_refs(|simulation| {
+        rayon::scope(|_| simulation.run(10.0, &mut ()).expect("an end after the present"))
+    });
 }

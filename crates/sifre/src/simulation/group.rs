@@ -14,7 +14,8 @@ pub enum Execution {
     /// The one that runs the simulation. Best below some hundred agents.
     #[default]
     OneThread,
-    /// Those of rayon's pool around the run.
+    /// Those of rayon's pool around the run. Begin the run inside the pool (`rayon::scope`): from outside, each instant is handed over to it
+    /// and waited for, which costs what the second thread wins.
     Parallel,
 }
 
