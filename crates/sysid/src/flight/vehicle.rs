@@ -58,9 +58,9 @@ pub struct FlightTests<'a> {
 pub struct CrazyflieIdentification {
     /// Thrust curve and lag.
     pub thrust: ThrustFit,
-    /// `I_xx`.
+    /// `I_xx`, with the errors of thrust curve and lag.
     pub roll: InertiaFit,
-    /// `I_yy`.
+    /// `I_yy`, with the errors of thrust curve and lag.
     pub pitch: InertiaFit,
     /// `κ/I_zz` and the zero of the yaw torque.
     pub yaw: YawFit,
@@ -88,7 +88,8 @@ pub fn identify_crazyflie(
     vehicle: &Vehicle,
 ) -> Result<CrazyflieIdentification, FlightError> {
     let (up_down, moved) = (tests.thrust.window(), tests.roll_pitch.window());
-    let found = identify_thrust_and_inertia(&up_down, &moved, tests.mass, vehicle)?;
+    let found = identify_thrust_and_inertia(&up_down, &moved, tests.mass, vehicle)?
+        .with_thrust_errors(vehicle, &moved)?;
     let yaw = identify_yaw(&found.rotation_model(), vehicle, tests.yaw.log, &tests.yaw.fit)?;
     Ok(CrazyflieIdentification {
         thrust: found.thrust,
