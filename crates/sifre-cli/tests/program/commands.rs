@@ -122,6 +122,10 @@ fn exact_a_crash_ends_early_and_is_recorded() {
 fn exact_a_new_scenario_flies_as_it_is() {
     let folder = Folder::new("new");
     folder.run(&["new", "mine.toml"]).exits(0);
+    // The first flight shows all that there is: its station keeps the laser on the receiver.
+    let flight = folder.run(&["run", "--json", "mine.toml"]).exits(0).json();
+    let energy = |key: &str| flight["metrics"][key].as_f64().unwrap();
+    assert!(energy("station.received_energy_j") > 100.0 * energy("station.missed_energy_j"));
     folder
         .run(&["new", "mine.toml"])
         .exits(2)
