@@ -14,7 +14,7 @@ use crate::figures;
 use crate::identify::Coverage;
 use crate::item::{Context, Item, Make, repository_root};
 use crate::run::{self, Options, References};
-use crate::summary::{Record, Status};
+use crate::summary::{Counts, Record, Status};
 
 /// Exit code when an item failed or a claim's outcome differs from the registered one.
 const DIFFERS: u8 = 1;
@@ -283,16 +283,11 @@ fn closing(records: &[Record]) -> String {
     let drawn = count(|s| matches!(s, Status::Drawn));
     let photographs = count(|s| matches!(s, Status::NotReproducible { .. }));
     let failed = count(|s| matches!(s, Status::Failed { .. }));
-    let claims: Vec<_> = records.iter().flat_map(|record| &record.claims).collect();
-    let held = claims
-        .iter()
-        .filter(|claim| claim.pass && claim.as_registered())
-        .count();
-    let not_held = claims
-        .iter()
-        .filter(|claim| !claim.pass && claim.as_registered())
-        .count();
-    let differing = claims.len() - held - not_held;
+    let Counts {
+        held,
+        not_held,
+        differing,
+    } = Counts::of(records);
     format!(
         "{drawn} drawn, {photographs} not reproducible, {failed} failed; claims: {held} hold, {not_held} do not hold \
          as registered, {differing} differ from what is registered"

@@ -9,7 +9,7 @@ use crate::item::Item;
 use crate::output::{OutputError, animation_name, save_file};
 use crate::plot::svg::escape;
 use crate::plot::text;
-use crate::summary::{Record, Status, Summary};
+use crate::summary::{Counts, Record, Status, Summary};
 
 const STYLE: &str = include_str!("gallery.css");
 
@@ -113,15 +113,8 @@ fn totals(summary: &Summary) -> String {
         .iter()
         .filter(|record| record.status == Status::Drawn)
         .count();
-    let claims: Vec<&ClaimRecord> = summary.items.iter().flat_map(|record| &record.claims).collect();
-    let held = claims
-        .iter()
-        .filter(|claim| claim.pass && claim.as_registered())
-        .count();
-    let not_held = claims
-        .iter()
-        .filter(|claim| !claim.pass && claim.as_registered())
-        .count();
+    let claims = Counts::of(&summary.items);
+    let Counts { held, not_held, .. } = claims;
     let seconds: f64 = summary.items.iter().map(|record| record.seconds).sum();
     let bad = summary.items.iter().filter(|record| !record.is_as_registered());
     let bad: Vec<String> = bad
@@ -134,7 +127,7 @@ fn totals(summary: &Summary) -> String {
     format!(
         "<p class=\"totals\">{drawn} drawn in {seconds:.1} s. Of {} claims, {held} hold and {not_held} do not hold, as \
          registered.</p>\n{alarm}",
-        claims.len()
+        claims.total()
     )
 }
 

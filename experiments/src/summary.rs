@@ -72,6 +72,37 @@ impl Record {
     }
 }
 
+/// How the claims of a run came out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Those that hold, as registered.
+    pub held: usize,
+    /// Those that do not hold, as registered.
+    pub not_held: usize,
+    /// Those that differ from what is registered.
+    pub differing: usize,
+}
+
+impl Counts {
+    /// Of all claims of these items.
+    pub fn of(records: &[Record]) -> Self {
+        let mut counts = Self::default();
+        for claim in records.iter().flat_map(|record| &record.claims) {
+            *match (claim.as_registered(), claim.pass) {
+                (false, _) => &mut counts.differing,
+                (true, true) => &mut counts.held,
+                (true, false) => &mut counts.not_held,
+            } += 1;
+        }
+        counts
+    }
+
+    /// All.
+    pub fn total(&self) -> usize {
+        self.held + self.not_held + self.differing
+    }
+}
+
 /// Why the previous summary could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SummaryError {

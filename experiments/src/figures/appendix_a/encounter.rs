@@ -39,6 +39,14 @@ pub(super) struct Pair {
     pub(super) position_m: [f64; 3],
 }
 
+/// One quadrotor at level 5 and one station on a mast of 1 m.
+pub(super) const ONE: Pair = Pair {
+    quadrotor: "Quad",
+    level: Level::Five,
+    station: "ETS",
+    position_m: [0.0, 0.0, -1.0],
+};
+
 /// What determines the flight.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Encounter {

@@ -1,12 +1,11 @@
 //! Figure A.1: one quadrotor and one station, as animation and still.
 
-use super::encounter::{Encounter, Pair};
+use super::encounter::{Encounter, ONE};
 use super::pointing::{self, YAW_ERROR_RAD, aims, most};
 use super::still::animation;
 use crate::claim::Claim;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use quad_dynamics::Level;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -30,13 +29,7 @@ const FACES: Claim = Claim::holds(
 );
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let flown = Encounter::of(vec![Pair {
-        quadrotor: "Quad",
-        level: Level::Five,
-        station: "ETS",
-        position_m: [0.0, 0.0, -1.0],
-    }])
-    .fly(context)?;
+    let flown = Encounter::of(vec![ONE]).fly(context)?;
     let pair = &flown.encounter.pairs[0];
     let aims = aims(&flown, pair)?;
     let of_half = most(&aims, |aim| aim.off / aim.half_receiver);

@@ -1,12 +1,11 @@
 //! Figure A.3: the view of the camera on the station, with the compass of its direction and inclination.
 
-use super::encounter::{Encounter, Pair};
+use super::encounter::{Encounter, ONE};
 use super::pointing::{self, aims, most};
 use super::still::animation;
 use crate::claim::Claim;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use quad_dynamics::Level;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -29,13 +28,7 @@ const READS: Claim = Claim::holds(
 );
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let flown = Encounter::of(vec![Pair {
-        quadrotor: "Quad",
-        level: Level::Five,
-        station: "ETS",
-        position_m: [0.0, 0.0, -1.0],
-    }])
-    .fly(context)?;
+    let flown = Encounter::of(vec![ONE]).fly(context)?;
     let pair = &flown.encounter.pairs[0];
     let aims = aims(&flown, pair)?;
     let image = most(&aims, |aim| aim.image);
