@@ -1,10 +1,21 @@
 //! The laws of the engine, bit for bit: order, threads, resuming.
 
-use crate::support::{Plan, in_order, members, ms, plans, run_recorded, sorted_bits, sorted_snapshot};
+use crate::support::{
+    Plan, c1, in_order, members, ms, name, plans, run_recorded, sorted_bits, sorted_snapshot,
+};
 use proptest::prelude::*;
+use quad_dynamics::{Level, Vehicle};
+use quad_ndi::Reference;
 use sifre::black_box::MemoryBox;
-use sifre::{Execution, Progress, Recording, RunStatus, Simulation, SimulationSnapshot};
+use sifre::quadrotor::Setup;
+use sifre::{
+    Execution, Guidance, Member, Moment, Progress, Quadrotor, Recording, RunStatus, Simulation,
+    SimulationSnapshot,
+};
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// Length of a flight, s: no multiple of most steps.
 const END_S: f64 = 0.12;
@@ -90,7 +101,11 @@ proptest! {
 
     #[test]
     fn prop_threads_do_not_matter(plans in prop::collection::vec(plans(), 40)) {
-        let plans = plans.concat();
+        // One step for all: agents of one instant are shared out among threads from 64 on, and these are 80 or more.
+        let mut plans = plans.concat();
+        for plan in &mut plans {
+            plan.step = ms(1.0);
+        }
         let flown = |execution, threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
             let mut simulation = simulation(&plans);
@@ -103,4 +118,60 @@ proptest! {
             prop_assert!(flown(Execution::Parallel, threads) == one, "{threads} threads");
         }
     }
+}
+
+/// Holds its place, and at the start waits until the other of its kind is asked, too: on another thread.
+#[derive(Debug)]
+struct Meeting {
+    mine: Arc<AtomicBool>,
+    other: Arc<AtomicBool>,
+    missed: Arc<AtomicBool>,
+}
+
+/// How long they wait for each other: for ever, if there is one thread only.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+impl Guidance for Meeting {
+    fn reference(&self, now: &Moment<'_>) -> Reference<f64> {
+        self.mine.store(true, Ordering::SeqCst);
+        let begin = Instant::now();
+        while now.time_ns == 0 && !self.other.load(Ordering::SeqCst) {
+            if begin.elapsed() > PATIENCE {
+                self.missed.store(true, Ordering::SeqCst);
+                break;
+            }
+            std::thread::yield_now();
+        }
+        Reference::hold([0.0, 0.0, -1.0].into(), 0.0)
+    }
+}
+
+/// The first and the last of 64 agents are asked for their references at the same time on two threads.
+#[test]
+fn exact_many_agents_are_shared_out() {
+    let [first, last, missed] = [0, 1, 2].map(|_| Arc::new(AtomicBool::new(false)));
+    let vehicle = Arc::new(Vehicle::qball_x4());
+    let member = |i: usize| {
+        let pilot = c1(&vehicle);
+        let meeting = |mine, other| Meeting {
+            mine: Arc::clone(mine),
+            other: Arc::clone(other),
+            missed: Arc::clone(&missed),
+        };
+        let setup = match i {
+            0 => Setup::new(name(i), &vehicle, Level::Two, pilot, meeting(&first, &last)),
+            63 => Setup::new(name(i), &vehicle, Level::Two, pilot, meeting(&last, &first)),
+            _ => {
+                let hold: Reference<f64> = Reference::hold([0.0, 0.0, -1.0].into(), 0.0);
+                Setup::new(name(i), &vehicle, Level::Two, pilot, hold)
+            }
+        };
+        Member::new(Quadrotor::new(setup).expect("the nominal vehicle flies"), ms(1.0))
+    };
+    let mut simulation = Simulation::new((0..64).map(member).collect()).expect("names differ");
+    simulation.execute(Execution::Parallel);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
+    let run = || simulation.run(0.002, &mut ()).expect("a later end");
+    assert!(pool.expect("threads").install(run).status.is_completed());
+    assert!(!missed.load(Ordering::SeqCst), "one thread did it all");
 }
