@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut flight = Scenario::from_table(&table, "gust")?.build(&())?.fly()?;
         let id = flight
             .simulation
-            .attach(flight.output.step_s, MetricsBox::default())?;
+            .attach(flight.metrics_step(), MetricsBox::default())?;
         flight.run(&mut ())?;
         let Some(metrics) = flight.simulation.detach::<MetricsBox>(id).transpose()? else {
             continue;

@@ -46,7 +46,7 @@ pub enum ScenarioError {
         message: String,
     },
     /// A duration that the clock doesn't have.
-    #[error("duration_s = {duration_s}: the end must come after the start: {source}")]
+    #[error("duration_s = {duration_s:?}: the end must come after the start: {source}")]
     Duration {
         /// The duration, s.
         duration_s: f64,
@@ -60,6 +60,40 @@ pub enum ScenarioError {
     Name {
         /// The name.
         name: String,
+    },
+    /// A gimbal that is to start where it can't go.
+    #[error(
+        "{agent}: {key} = {value_deg} is outside the gimbal's travel, {from_deg:.1} to {to_deg:.1} degrees"
+    )]
+    Travel {
+        /// The station.
+        agent: String,
+        /// The key.
+        key: &'static str,
+        /// Its value, degrees.
+        value_deg: f64,
+        /// The travel's beginning, degrees.
+        from_deg: f64,
+        /// The travel's end, degrees.
+        to_deg: f64,
+    },
+    /// A recording whose form is not known.
+    #[error(
+        "output.path = \"{path}\" doesn't tell what to write: let it end in .csv, .parquet or .jsonl, or set output.format"
+    )]
+    Form {
+        /// Where to record.
+        path: String,
+    },
+    /// A box without an inside.
+    #[error("stop.outside: from_m[{axis}] = {from} must be less than to_m[{axis}] = {to}")]
+    EmptyBox {
+        /// 0 north, 1 east, 2 down.
+        axis: usize,
+        /// The least coordinate, m.
+        from: f64,
+        /// The greatest, m.
+        to: f64,
     },
     /// A vehicle or station file that isn't there.
     #[error("agent \"{agent}\" has {kind} \"{wanted}\", which is {reason}; known by name: {known}")]

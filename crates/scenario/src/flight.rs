@@ -5,7 +5,7 @@ use crate::error::ScenarioError;
 use crate::file::{BoxLimits, OutputFile, StopFile};
 use sifre::{
     AgentEvent, Event, Member, Observer, Progress, RunReport, RunStatus, Scene, Simulation, SimulationError,
-    SimulationSnapshot, StopCondition, Who,
+    SimulationSnapshot, StepSize, StopCondition, Who, steps,
 };
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -93,6 +93,13 @@ impl Built {
 }
 
 impl Flight {
+    /// Time between two looks at the flight for its numbers: that of the recording, but no more than the usual 20 ms, so that a coarse
+    /// recording does not make them coarse.
+    #[must_use]
+    pub fn metrics_step(&self) -> StepSize {
+        self.output.step_s.min(steps::BLACK_BOX.step)
+    }
+
     /// Runs to the scenario's end, or to whatever ends it before.
     ///
     /// # Errors

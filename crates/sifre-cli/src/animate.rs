@@ -4,7 +4,7 @@ use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::varied::Template;
 use crate::{interrupt, recorder, report};
-use ::animate::{Options, Scene, html};
+use ::animate::{AnimateError, Options, Scene, html};
 use scenario::{AgentInfo, AgentKind, End, Flight};
 use sifre::Recording;
 use sifre::black_box::MemoryBox;
@@ -18,7 +18,8 @@ pub(crate) struct Arguments {
     /// The scenario that a recording is of, for the looks of its agents; guessed from the recording without it.
     #[arg(long)]
     scenario: Option<PathBuf>,
-    /// The page; without it in this folder, with the name of the input.
+    /// The page; without it in this folder, with the name of the input. A name that ends in .mcap is a file for Foxglove and rerun instead
+    /// (in programs built with the feature `mcap`).
     #[arg(long, short)]
     out: Option<PathBuf>,
 }
@@ -34,7 +35,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
             .attach(flight.output.step_s, MemoryBox::default())?;
         let ending = flight.run(&mut interrupt::watch())?;
         if ending.end != End::Done {
-            eprintln!("note: {} at {} s", ending.report.status, ending.report.time_s);
+            report::complain(format!(
+                "note: {} at {} s",
+                ending.report.status, ending.report.time_s
+            ));
         }
         let memory = flight.simulation.detach::<MemoryBox>(id).and_then(Result::ok);
         (memory.unwrap_or_default().recording, scene, ending.end.into())
@@ -46,30 +50,51 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         };
         (recording, scene, Exit::Done)
     };
-    let page = html(&recording, &scene, &Options::default())
-        .map_err(|error| Failure::Usage(format!("{}: {error}", arguments.input.display())))?;
     // A flight's outputs stand where one works, as those of `run` do, not among the scenarios.
     let name = arguments.input.file_name().unwrap_or(arguments.input.as_os_str());
     let out = arguments
         .out
         .clone()
         .unwrap_or_else(|| Path::new(name).with_extension("html"));
-    disk::write(&out, page)?;
+    let is_mcap = out.extension().is_some_and(|ending| ending == "mcap");
+    let drawn = if is_mcap {
+        mcap(&recording, &scene)?
+    } else {
+        html(&recording, &scene, &Options::default()).map(String::into_bytes)
+    };
+    let refused = |error| Failure::Usage(format!("{}: {error}", arguments.input.display()));
+    disk::write(&out, drawn.map_err(refused)?)?;
     if json {
         report::print(&serde_json::json!({ "page": out, "rows": recording.len(), "exit_code": exit.code() }));
     } else {
-        report::say(format!("drawn: {}; open it in a browser\n", out.display()));
+        let viewer = if is_mcap { "Foxglove or rerun" } else { "a browser" };
+        report::say(format!("drawn: {}; open it in {viewer}\n", out.display()));
     }
     Ok(exit)
+}
+
+/// The recording as an MCAP file.
+#[cfg(feature = "mcap")]
+fn mcap(recording: &Recording, scene: &Scene) -> Result<Result<Vec<u8>, AnimateError>, Failure> {
+    let mut file = std::io::Cursor::new(Vec::new());
+    Ok(::animate::foxglove::write_mcap(recording, scene, &mut file).map(|()| file.into_inner()))
+}
+
+/// The recording as an MCAP file.
+#[cfg(not(feature = "mcap"))]
+fn mcap(_: &Recording, _: &Scene) -> Result<Result<Vec<u8>, AnimateError>, Failure> {
+    Err(Failure::Usage(
+        "this program writes no MCAP files: build it with `--features mcap`".to_owned(),
+    ))
 }
 
 fn recorded(path: &Path) -> Result<Recording, Failure> {
     let recovered = recorder::read(path)?;
     if let Some(damage) = &recovered.damage {
-        eprintln!(
+        report::complain(format!(
             "note: {damage}; drawing the {} rows before it",
             recovered.recording.len()
-        );
+        ));
     }
     Ok(recovered.recording)
 }

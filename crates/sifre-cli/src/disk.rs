@@ -23,9 +23,16 @@ impl Beside {
     }
 }
 
+impl Beside {
+    /// The path of a file by its name in the scenario.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+}
+
 impl Files for Beside {
     fn text(&self, name: &str) -> Result<String, io::Error> {
-        fs::read_to_string(self.folder.join(name))
+        fs::read_to_string(self.path(name))
     }
 }
 
@@ -72,6 +79,23 @@ pub(crate) fn replace(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fail
             path: path.to_owned(),
             source,
         })
+}
+
+/// Refuses to write over a file that is read.
+pub(crate) fn is_no_input(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
+    let Ok(output) = output.canonicalize() else {
+        return Ok(()); // Not there yet.
+    };
+    if inputs
+        .iter()
+        .any(|input| input.canonicalize().is_ok_and(|input| input == output))
+    {
+        return Err(Failure::Usage(format!(
+            "{} is an input of this flight and would be written over: give the output another name",
+            output.display()
+        )));
+    }
+    Ok(())
 }
 
 /// Whether a file can be replaced, before a long flight and not after it.

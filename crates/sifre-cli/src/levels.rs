@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         let is_interrupted = flown.end == End::Interrupted;
         flights.push((scenario, flown));
         if is_interrupted {
-            eprintln!("error: interrupted");
+            report::complain("error: interrupted");
             return Ok(Exit::Interrupted);
         }
     }

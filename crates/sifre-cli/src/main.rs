@@ -1,4 +1,6 @@
 //! `sifre`: the command line of the simulation engine.
+// A stream that is closed makes those macros panic: `report::say`, `report::complain`.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod animate;
 mod attribute;
@@ -99,7 +101,9 @@ fn main() -> ExitCode {
         What::Schema => schema::run(),
         What::Doctor => doctor::run(json),
         What::Completions { shell } => {
-            clap_complete::generate(shell, &mut Arguments::command(), "sifre", &mut std::io::stdout());
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "sifre", &mut script);
+            report::say(String::from_utf8_lossy(&script));
             Ok(Exit::Done)
         }
     };
@@ -110,7 +114,7 @@ fn main() -> ExitCode {
 /// Says what went wrong.
 fn tell(failure: &Failure, json: bool) -> Exit {
     let exit = failure.exit();
-    eprintln!("error: {failure}");
+    report::complain(format!("error: {failure}"));
     if json {
         report::print(&serde_json::json!({ "error": failure.to_string(), "exit_code": exit.code() }));
     }

@@ -67,7 +67,7 @@ pub(crate) fn fly(scenario: &Scenario, files: &dyn Files) -> Result<Measured, Fa
     let built = scenario.build(files)?;
     let costs = cost_boxes(scenario, &built)?;
     let mut flight = built.fly()?;
-    let step = flight.output.step_s;
+    let step = flight.metrics_step();
     let sums = flight.simulation.attach(step, MetricsBox::default())?;
     let rows = flight.simulation.attach(step, MemoryBox::default())?;
     let mut phis = Vec::new();

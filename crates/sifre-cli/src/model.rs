@@ -65,11 +65,11 @@ pub(crate) fn check(scenario: &Scenario) -> Result<(), Failure> {
             .map(|(key, _)| *key)
             .collect();
         if !named.is_empty() {
-            eprintln!(
+            crate::report::complain(format!(
                 "note: each level flies with its own phenomena throughout; \"{}\" goes without its {}",
                 quadrotor.name,
                 named.join(", ")
-            );
+            ));
         }
     }
     Ok(())

@@ -26,7 +26,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let recovered = recorder::read(&arguments.recording)?;
     let recording = &recovered.recording;
     if let Some(damage) = &recovered.damage {
-        eprintln!("note: {damage}; drawing the {} rows before it", recording.len());
+        report::complain(format!(
+            "note: {damage}; drawing the {} rows before it",
+            recording.len()
+        ));
     }
     if recording.is_empty() {
         return Err(Failure::Usage(format!(

@@ -46,9 +46,9 @@ pub(crate) fn read(path: &Path) -> Result<Recovered, Failure> {
         source,
     })?;
     let recovered: Result<Recovered, BlackBoxError> = match Format::of(&path.display().to_string()) {
-        Format::Csv => Recording::recover_csv(file),
-        Format::Jsonl => Recording::recover_json_lines(file),
-        Format::Parquet => Recording::recover_parquet(file),
+        Some(Format::Jsonl) => Recording::recover_json_lines(file),
+        Some(Format::Parquet) => Recording::recover_parquet(file),
+        Some(Format::Csv) | None => Recording::recover_csv(file),
     };
     recovered.map_err(|source| Failure::Usage(format!("{}: not a recording: {source}", path.display())))
 }

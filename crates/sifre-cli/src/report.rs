@@ -40,6 +40,11 @@ pub(crate) fn say(text: impl AsRef<str>) {
     let _ = std::io::stdout().write_all(text.as_ref().as_bytes());
 }
 
+/// Prints a line on standard error; one that is closed is no error of ours.
+pub(crate) fn complain(line: impl AsRef<str>) {
+    let _ = writeln!(std::io::stderr(), "{}", line.as_ref());
+}
+
 /// Metrics as a JSON object.
 pub(crate) fn object(metrics: &[Metric]) -> Value {
     let entries = metrics.iter().map(|m| (m.name.clone(), Value::from(m.value)));

@@ -1,12 +1,12 @@
 //! `sifre run`: flies a scenario and records it.
 
-use crate::disk::{self, Beside};
+use crate::disk::{self, Beside, Remembering};
 use crate::exit::{Exit, Failure};
 use crate::report::{self, Report};
 use crate::varied::{Setting, Template, setting};
 use crate::{interrupt, recorder, saved};
 use indicatif::{ProgressBar, ProgressStyle};
-use scenario::{Flight, MetricsBox, Scenario};
+use scenario::{Flight, Format, MetricsBox, Scenario};
 use sifre::{Event, Observer, Progress, RunStatus};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -26,8 +26,9 @@ pub(crate) struct Arguments {
     /// Save the flight as it is when it ends, is stopped or interrupted, to go on with --resume.
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
-    /// Go on from a saved flight, with a later `duration_s` if it had come to its end. Records and sums up what is flown from there on;
-    /// the recording needs a name of its own.
+    /// Go on from a saved flight, with a later `duration_s` if it had come to its end. Agents go on as they were: what the scenario says
+    /// of the start (positions, levels, pan and tilt) is not looked at. Records and sums up what is flown from there on; the
+    /// recording needs a name of its own.
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
     /// Set a key of the scenario: `--set quadrotor.alpha.level=5`. May be repeated.
@@ -61,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let report = fly(&scenario, arguments, &bar)?;
     bar.finish_and_clear();
     for note in &report.notes {
-        eprintln!("note: {note}");
+        report::complain(format!("note: {note}"));
     }
     if json {
         report::print(&report.json());
@@ -69,28 +70,43 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         report::say(report.text());
     }
     if report.exit() != Exit::Done {
-        eprintln!("error: {}", report.ending.report.status);
+        report::complain(format!("error: {}", report.ending.report.status));
     }
     Ok(report.exit())
 }
 
 /// Flies a scenario to its end and records it where it says.
 fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<Report, Failure> {
-    let built = scenario.build(&Beside::of(&arguments.scenario))?;
+    let beside = Beside::of(&arguments.scenario);
+    let files = Remembering::of(&beside);
+    let built = scenario.build(&files)?;
+    let inputs: Vec<PathBuf> = [arguments.scenario.clone()]
+        .into_iter()
+        .chain(files.read.borrow().keys().map(|name| beside.path(name)))
+        .collect();
+    if let Some(to) = &arguments.save {
+        disk::is_no_input(to, &inputs)?;
+    }
     let (selection, mut notes) = (built.selection(), built.notes.clone());
     let mut flight = match &arguments.resume {
         Some(from) => saved::resume(built, from)?,
         None => built.fly()?,
     };
+    if arguments.resume.is_some() {
+        notes.extend(saved::notes(&flight));
+    }
     let (step, path) = (flight.output.step_s, flight.output.path.clone());
     if let Some(path) = &path {
         if arguments.resume.is_some() {
             saved::leave_alone(Path::new(path))?;
         }
-        let format = scenario.output.form();
+        disk::is_no_input(Path::new(path), &inputs)?;
+        let format = scenario.output.form().unwrap_or(Format::Csv);
         recorder::attach(&mut flight.simulation, Path::new(path), format, step, selection)?;
     }
-    let metrics = flight.simulation.attach(step, MetricsBox::default())?;
+    let metrics = flight
+        .simulation
+        .attach(flight.metrics_step(), MetricsBox::default())?;
     let (begin, from_s) = (Instant::now(), flight.simulation.now_s());
     let ending = flight.run(&mut Bar { bar })?;
     let wall_s = begin.elapsed().as_secs_f64();

@@ -2,8 +2,8 @@
 
 use crate::disk;
 use crate::exit::Failure;
-use scenario::{Built, Flight};
-use sifre::{SimulationSnapshot, SnapshotError};
+use scenario::{AgentInfo, AgentKind, Built, Flight};
+use sifre::{Quadrotor, SimulationSnapshot, SnapshotError};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -26,6 +26,25 @@ pub(crate) fn resume(built: Built, from: &Path) -> Result<Flight, Failure> {
         )));
     }
     Ok(flight)
+}
+
+/// What goes on otherwise than the scenario says that a flight begins.
+pub(crate) fn notes(flight: &Flight) -> Vec<String> {
+    let differs = |agent: &AgentInfo| {
+        let AgentKind::Quadrotor { level: said, .. } = agent.kind else {
+            return None;
+        };
+        let level = flight.simulation.agent::<Quadrotor>(&agent.name)?.level();
+        (level != said).then(|| {
+            format!(
+                "\"{}\" goes on at level {}, where it was; `level = {}` is that of the start (level_changes changes it on the way)",
+                agent.name,
+                level.number(),
+                said.number()
+            )
+        })
+    };
+    flight.agents.iter().filter_map(differs).collect()
 }
 
 /// Writes the flight as it is, whole at any time.

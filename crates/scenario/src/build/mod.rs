@@ -112,6 +112,16 @@ impl Scenario {
         for file in &self.target {
             station::add_target(&mut built, file)?;
         }
+        for member in &built.members {
+            let step_s = member.step.seconds();
+            if step_s > self.duration_s {
+                let name = member.agent.name();
+                let note = format!(
+                    "\"{name}\" decides once and never moves: its step_s = {step_s} is longer than the flight"
+                );
+                built.notes.push(note);
+            }
+        }
         Ok(built)
     }
 
@@ -132,6 +142,17 @@ impl Scenario {
             .flat_map(|b| b.from_m.into_iter().chain(b.to_m));
         for value in corners.chain([stop.ground_height_m]) {
             finite("stop", "a length", value)?;
+        }
+        for axis in 0..3 {
+            match stop.outside.map(|b| (b.from_m[axis], b.to_m[axis])) {
+                Some((from, to)) if from >= to => return Err(ScenarioError::EmptyBox { axis, from, to }),
+                _ => {}
+            }
+        }
+        if let Some(path) = &self.output.path
+            && self.output.form().is_none()
+        {
+            return Err(ScenarioError::Form { path: path.clone() });
         }
         match stop.arrived_within_m {
             Some(value) if !(value.is_finite() && value > 0.0) => Err(ScenarioError::Number {

@@ -4,6 +4,7 @@ use super::{AgentInfo, AgentKind, Built, finite};
 use crate::error::ScenarioError;
 use crate::file::{EtsFile, PathFile, TargetFile};
 use crate::library::{Files, station, station_error};
+use ets::GimbalAxis;
 use quad_ndi::{Trajectory, Waypoint};
 use sifre::{Ets, EtsSetup, Member, Path, Target};
 
@@ -33,6 +34,8 @@ pub(super) fn add(
     let agent = format!("ets \"{}\"", file.name);
     finite(&agent, "pan_deg", file.pan_deg)?;
     finite(&agent, "tilt_deg", file.tilt_deg)?;
+    in_travel(&agent, "pan_deg", file.pan_deg, &station.gimbal.pan)?;
+    in_travel(&agent, "tilt_deg", file.tilt_deg, &station.gimbal.tilt)?;
     let setup = EtsSetup {
         name: file.name.clone(),
         target: file.tracks.clone(),
@@ -50,6 +53,25 @@ pub(super) fn add(
         },
     });
     Ok(())
+}
+
+/// Refuses a start that the gimbal can't take.
+fn in_travel(
+    agent: &str,
+    key: &'static str,
+    value_deg: f64,
+    axis: &GimbalAxis<f64>,
+) -> Result<(), ScenarioError> {
+    if (axis.minimum..=axis.maximum).contains(&value_deg.to_radians()) {
+        return Ok(());
+    }
+    Err(ScenarioError::Travel {
+        agent: agent.to_owned(),
+        key,
+        value_deg,
+        from_deg: axis.minimum.to_degrees(),
+        to_deg: axis.maximum.to_degrees(),
+    })
 }
 
 /// Adds a target to what is built.

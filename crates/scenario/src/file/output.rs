@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sifre::{StepSize, steps};
+use std::ffi::OsStr;
+use std::path::Path;
 
 /// What ends the run before its time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +53,7 @@ pub struct OutputFile {
     /// The file, relative to where the program runs; nothing is recorded without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
-    /// Its form; by the path's ending unless told otherwise.
+    /// Its form; by the path's ending (.csv, .parquet or .jsonl) unless told otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub format: Option<Format>,
     /// Time between two rows, s.
@@ -85,22 +87,23 @@ pub enum Format {
 }
 
 impl Format {
-    /// The form that a path's ending stands for; CSV if it has none that is known.
+    /// The form that a path's ending stands for: CSV if it has none, nothing if it has one that is no form.
     #[must_use]
-    pub fn of(path: &str) -> Self {
-        match path.rsplit_once('.') {
-            Some((_, "parquet")) => Self::Parquet,
-            Some((_, "jsonl")) => Self::Jsonl,
-            _ => Self::Csv,
+    pub fn of(path: &str) -> Option<Self> {
+        match Path::new(path).extension().map(OsStr::to_str) {
+            Some(Some("parquet")) => Some(Self::Parquet),
+            Some(Some("jsonl")) => Some(Self::Jsonl),
+            Some(Some("csv")) | None => Some(Self::Csv),
+            Some(_) => None,
         }
     }
 }
 
 impl OutputFile {
-    /// The form of the recording.
+    /// The form of the recording; nothing if its path doesn't tell.
     #[must_use]
-    pub fn form(&self) -> Format {
+    pub fn form(&self) -> Option<Format> {
         self.format
-            .unwrap_or_else(|| self.path.as_deref().map_or(Format::Csv, Format::of))
+            .or_else(|| Format::of(self.path.as_deref().unwrap_or_default()))
     }
 }

@@ -61,6 +61,31 @@ fn exact_missing_vehicles_and_stations() {
     );
 }
 
+/// The nominal gimbal pans 170 degrees to either side.
+#[test]
+fn exact_gimbals_start_inside_their_travel() {
+    let ets = |angle: &str| {
+        let ets = format!("[[ets]]\nname = \"station\"\ntracks = \"alpha\"\n{angle}");
+        one(SECOND, "", &ets)
+    };
+    says(
+        &ets("pan_deg = 171"),
+        &["ets \"station\"", "pan_deg = 171", "-170.0 to 170.0 degrees"],
+    );
+    says(&ets("tilt_deg = -500"), &["tilt_deg = -500", "travel"]);
+    says(&ets("pan_deg = 1e308"), &["pan_deg = 1", "travel"]);
+}
+
+#[test]
+fn exact_recordings_have_a_form() {
+    let output = |path: &str| one(SECOND, "", &format!("[output]\npath = \"{path}\""));
+    says(
+        &output("flight.json"),
+        &["flight.json", ".csv, .parquet or .jsonl"],
+    );
+    says(&output("a.b/flight.toml"), &["flight.toml", "output.format"]);
+}
+
 #[test]
 fn exact_parameters_that_the_vehicle_does_not_have() {
     let parameter = |key: &str| one(SECOND, &format!("parameters = {{ {key} }}"), "");

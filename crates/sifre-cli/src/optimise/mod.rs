@@ -87,10 +87,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         state.write(&path)?;
         ran?;
         if state.courses[k].stop == Some(StopReason::Interrupted) {
-            eprintln!(
+            report::complain(format!(
                 "interrupted after {} flights: the same command with --resume goes on from here",
                 state.courses[k].rows.len()
-            );
+            ));
             return Ok(Exit::Interrupted);
         }
     }

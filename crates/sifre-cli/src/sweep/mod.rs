@@ -88,10 +88,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     bar.finish_and_clear();
     if (rows.len() as u64) < plan.count {
         let left = plan.count - rows.len() as u64;
-        eprintln!(
+        report::complain(format!(
             "interrupted with {left} of {} runs left: the same command goes on from here",
             plan.count
-        );
+        ));
         return Ok(Exit::Interrupted);
     }
     table::write(&arguments.out, &plan.keys(), &rows)?;
@@ -267,7 +267,7 @@ fn fly(scenario: &Scenario, files: &dyn Files) -> Result<(scenario::Ending, Vec<
     let mut flight = scenario.build(files)?.fly()?;
     let id = flight
         .simulation
-        .attach(flight.output.step_s, MetricsBox::default())?;
+        .attach(flight.metrics_step(), MetricsBox::default())?;
     let ending = flight.run(&mut interrupt::watch())?;
     let metrics = flight.simulation.detach::<MetricsBox>(id).and_then(Result::ok);
     Ok((ending, metrics.map_or_else(Vec::new, |metrics| metrics.metrics())))

@@ -85,10 +85,10 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         report::say(output::text(&ensemble, &answer));
     }
     if left > 0 {
-        eprintln!(
+        report::complain(format!(
             "interrupted with {left} of {} flights left: this is what the others say",
             jobs.len()
-        );
+        ));
         return Ok(Exit::Interrupted);
     }
     Ok(match answer.done {

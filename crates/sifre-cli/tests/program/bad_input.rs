@@ -29,7 +29,17 @@ fn exact_bad_scenarios_exit_with_2() {
     set("quadrotor.alpha.step_s=0.00033333333333")
         .exits(2)
         .says(&["nanoseconds"]);
+    set("duration_s=1e300")
+        .exits(2)
+        .says(&["duration_s = 1e300", "after the start"]);
+    set("stop.outside={from_m=[1,-5,-5],to_m=[-1,5,0]}")
+        .exits(2)
+        .says(&["stop.outside: from_m[0] = 1 must be less than to_m[0] = -1"]);
     set("level").exits(2).says(&["key=value"]);
+    // A slow agent is told of, and flown.
+    set("quadrotor.alpha.step_s=20")
+        .exits(0)
+        .says(&["note: \"alpha\" decides once and never moves"]);
     folder.run(&["fly"]).exits(2);
     // Machines get it as JSON.
     let ran = folder.run(&["run", "--json", "missing.toml"]).exits(2);
@@ -78,6 +88,80 @@ fn exact_outputs_that_cannot_be_written_exit_with_3() {
         .run(&["new", "no/such/folder/a.toml"])
         .exits(3)
         .says(&["can't be written"]);
+}
+
+/// An input is never written over, and what to write is never guessed.
+#[test]
+fn exact_outputs_that_are_inputs_or_no_recordings_exit_with_2() {
+    let folder = Folder::new("inputs");
+    let hover = fs::read_to_string(ready("hover")).unwrap();
+    let own = hover.replace("path = \"hover.csv\"", "path = \"own.toml\"\nformat = \"csv\"");
+    folder.write("own.toml", &own);
+    let drone = fs::read_to_string(format!(
+        "{}/../../data/vehicles/crazyflie.toml",
+        env!("CARGO_MANIFEST_DIR")
+    ));
+    let drone = drone.unwrap();
+    folder.write("drone.toml", &drone);
+    folder
+        .run(&["run", "-q", "own.toml"])
+        .exits(2)
+        .says(&["own.toml is an input of this flight"]);
+    let vehicle = "quadrotor.alpha.vehicle=\"drone.toml\"";
+    for output in [
+        ["--set", "output.path=\"./drone.toml\""],
+        ["--save", "drone.toml"],
+    ] {
+        let arguments = ["run", "-q", "own.toml", "--set", vehicle];
+        folder
+            .run(&[&arguments[..], &output].concat())
+            .exits(2)
+            .says(&["drone.toml is an input of this flight"]);
+    }
+    assert_eq!(fs::read_to_string(folder.path("own.toml")).unwrap(), own);
+    assert_eq!(fs::read_to_string(folder.path("drone.toml")).unwrap(), drone);
+    folder
+        .run(&["run", "-q", "own.toml", "--out", "flight.json"])
+        .exits(2)
+        .says(&["flight.json", ".csv, .parquet or .jsonl"]);
+    // Without an ending it is CSV.
+    folder.run(&["run", "-q", "own.toml", "--out", "flight"]).exits(0);
+    folder.run(&["plot", "flight"]).exits(0);
+}
+
+/// Nobody listens: no panic, and the exit code of the flight.
+#[test]
+fn exact_closed_streams_are_no_panics() {
+    let folder = Folder::new("closed");
+    let low = ready("hover");
+    for (arguments, code) in [
+        (
+            &[
+                "run",
+                "-q",
+                &low,
+                "--no-output",
+                "--set",
+                "stop.ground_height_m=5",
+            ][..],
+            1,
+        ),
+        (&["run", "missing.toml"], 2),
+        (&["completions", "bash"], 0),
+    ] {
+        let mut command = folder.command(arguments);
+        let closed = || {
+            let (reader, writer) = std::io::pipe().expect("a pipe");
+            drop(reader);
+            writer
+        };
+        let status = command.stdout(closed()).stderr(closed()).status();
+        assert_eq!(
+            status.expect("the program starts").code(),
+            Some(code),
+            "{arguments:?}"
+        );
+    }
 }
 
 /// `/dev/full` is a disk that is always full.

@@ -288,6 +288,18 @@ fn exact_flights_become_pages() {
         .run(&["animate", "a.csv", "--scenario", &scenario])
         .exits(0);
     // Without a name for it, where one works: not beside the ready scenario.
+    // With the feature `mcap` a file for other viewers, without it a word about how to get one.
+    let ran = folder.run(&["animate", &scenario, "-o", "flown.mcap"]);
+    if cfg!(feature = "mcap") {
+        ran.exits(0);
+        assert!(
+            fs::read(folder.path("flown.mcap"))
+                .unwrap()
+                .starts_with(b"\x89MCAP")
+        );
+    } else {
+        ran.exits(2).says(&["--features mcap"]);
+    }
     folder.run(&["animate", &scenario]).exits(0);
     for page in ["flown.html", "a.html", "power-transmission-10s.html"] {
         let text = fs::read_to_string(folder.path(page)).unwrap();

@@ -77,3 +77,21 @@ fn exact_what_can_not_go_on_is_told() {
         .says(&["no/folder.json: can't be written"]);
     assert!(!folder.path("b.csv").exists());
 }
+
+/// Agents go on as they were; a level that the scenario gives for the start is told of.
+#[test]
+fn exact_a_level_of_the_start_is_told_of() {
+    let folder = Folder::new("saved-level");
+    let hover = ready("hover");
+    let fly = |more: &[&str]| folder.run(&[&["run", "-q", &hover], more].concat()).exits(0);
+    fly(&[
+        "-o",
+        "a.csv",
+        "--save",
+        "a.json",
+        "--set",
+        "quadrotor.alpha.level=3",
+    ]);
+    let on = ["-o", "b.csv", "--resume", "a.json", "--set", "duration_s=11"];
+    fly(&on).says(&["\"alpha\" goes on at level 3, where it was; `level = 5` is that of the start"]);
+}

@@ -75,6 +75,13 @@ pub enum BlackBoxError {
     #[cfg(feature = "parquet")]
     #[error("black box, Parquet: {0}")]
     Parquet(#[from] parquet::errors::ParquetError),
+    /// A Parquet file without its end.
+    #[cfg(feature = "parquet")]
+    #[error(
+        "no finished Parquet file ({0}); one can be read only once its end is written, also by Ctrl-C, but not after a kill or on a full \
+         disk: CSV and JSON lines keep every whole row"
+    )]
+    Unfinished(parquet::errors::ParquetError),
     /// No description of the channels where it should be.
     #[error("not a recording: {expected} is missing")]
     NoHeader {

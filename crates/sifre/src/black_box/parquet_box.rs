@@ -22,7 +22,8 @@ const KEY: &str = "sifre_recording";
 /// What is collected before it is written, bytes.
 const ROW_GROUP_BYTES: usize = 8 << 20;
 
-/// Streams a recording as Parquet. The file is complete, and readable, once it is finished.
+/// Streams a recording as Parquet. The file is complete, and readable, once it is finished: what a full disk or a kill leaves of it
+/// can't be read. Where that matters, record CSV or JSON lines.
 #[derive(Debug)]
 pub struct ParquetBox<W: Write + Send> {
     file: File<W>,
@@ -181,7 +182,7 @@ impl Recording {
     /// # Errors
     /// If the file's end, which describes it, is missing or wrong.
     pub fn recover_parquet<C: ChunkReader + 'static>(from: C) -> Result<Recovered, BlackBoxError> {
-        let reader = SerializedFileReader::new(from)?;
+        let reader = SerializedFileReader::new(from).map_err(BlackBoxError::Unfinished)?;
         let metadata = reader.metadata().file_metadata();
         let header = metadata
             .key_value_metadata()
