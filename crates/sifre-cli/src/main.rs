@@ -4,6 +4,7 @@
 
 mod animate;
 mod attribute;
+mod cameras;
 mod disk;
 mod doctor;
 mod drawing;
@@ -68,6 +69,8 @@ enum What {
     Sweep(sweep::Arguments),
     /// What a flight's numbers are worth: the standard errors of the vehicle's file carried to every metric.
     Uncertainty(uncertainty::Arguments),
+    /// Where motion-capture cameras go on the walls of a room, to see most of the volume that is flown in.
+    Cameras(cameras::Arguments),
     /// Draw a recording.
     Plot(plot::Arguments),
     /// Draw a flight as a page that moves, for a browser.
@@ -95,6 +98,7 @@ fn main() -> ExitCode {
         What::Optimise(arguments) => optimise::run(&arguments, json),
         What::Sweep(arguments) => sweep::run(&arguments, json),
         What::Uncertainty(arguments) => uncertainty::run(&arguments, json),
+        What::Cameras(arguments) => cameras::run(&arguments, json),
         What::Plot(arguments) => plot::run(&arguments, json),
         What::Animate(arguments) => animate::run(&arguments, json),
         What::New(arguments) => new::run(&arguments, json),

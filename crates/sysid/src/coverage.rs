@@ -15,8 +15,10 @@
 //! down. Source: geometry; figure C.1 of the thesis shows such a simulation.
 
 mod error;
+mod rig;
 
 pub use error::CoverageError;
+pub use rig::{RigVariable, WallRig};
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -113,6 +115,14 @@ impl Lens {
 }
 
 impl Room {
+    fn check(&self) -> Result<(), CoverageError> {
+        let names = ["the room's length", "the room's width", "the room's height"];
+        names
+            .into_iter()
+            .zip(self.size())
+            .try_for_each(|(what, value)| positive(what, value))
+    }
+
     /// Length of all walls together, m.
     pub fn circumference_m(&self) -> f64 {
         2.0 * (self.length_m + self.width_m)
@@ -221,12 +231,7 @@ impl Task {
         needed: u32,
         spacing_m: f64,
     ) -> Result<Self, CoverageError> {
-        for (what, value) in ["the room's length", "the room's width", "the room's height"]
-            .into_iter()
-            .zip(room.size())
-        {
-            positive(what, value)?;
-        }
+        room.check()?;
         for value in volume.size_m.iter() {
             positive("each edge of the volume", *value)?;
         }

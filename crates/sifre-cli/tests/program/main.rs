@@ -1,6 +1,7 @@
 //! The program as a user meets it: exit codes and messages.
 
 mod bad_input;
+mod cameras;
 mod commands;
 mod interrupted;
 mod optimise;

@@ -69,6 +69,22 @@ pub enum CoverageError {
         /// How many there may be.
         limit: usize,
     },
+    /// No cameras.
+    #[error("a rig has at least one camera, not 0")]
+    NoCameras,
+    /// Heights in the wrong order or outside the room.
+    #[error(
+        "cameras between {least_m} m and {most_m} m over the floor: the first must be at least 0 and below the second, the second no more \
+         than the room's {room_m} m"
+    )]
+    BadHeights {
+        /// Least height, m.
+        least_m: f64,
+        /// Greatest height, m.
+        most_m: f64,
+        /// Height of the room, m.
+        room_m: f64,
+    },
     /// Nothing asked.
     #[error("at least one camera must see a marker, not 0")]
     NobodyNeeded,

@@ -206,3 +206,76 @@ fn bad_input_is_told() {
         .contains("outside")
     );
 }
+
+const HEIGHTS: std::ops::RangeInclusive<f64> = 1.0..=3.0;
+
+/// Four cameras of a rig of eight decide on all: what they see is its own mirror image at both middle planes.
+#[test]
+fn prop_a_rig_of_a_multiple_of_four_is_symmetrical() {
+    let rig = WallRig::new(ROOM, 8, HEIGHTS).unwrap();
+    assert_eq!(rig.variables().len(), 8);
+    let task = task(lens(60.0, 40.0, 6.0), 2, 0.25);
+    // 32, 24 and 16 cells along x, y and z.
+    let at = |i: usize, j: usize, k: usize| i + 32 * (j + 24 * k);
+    let seen = task
+        .coverage(&rig.cameras(&[4.1, 2.0, 0.3, -0.2, 8.3, 1.2, -0.4, 0.1]))
+        .unwrap();
+    let mut differing = 0;
+    for (i, j, k) in (0..32).flat_map(|i| (0..24).flat_map(move |j| (0..16).map(move |k| (i, j, k)))) {
+        let of = |i, j| seen.seen_by[at(i, j, k)];
+        assert_eq!(of(i, j), of(31 - i, j));
+        assert_eq!(of(i, j), of(i, 23 - j));
+        differing += u32::from(of(i, j) != of(0, 0));
+    }
+    assert!(differing > 1000, "{differing}");
+}
+
+/// The first guess: at equal ways along the walls, each looking at the wall opposite.
+#[test]
+fn exact_first_guesses() {
+    for cameras in [1, 4, 6, 8] {
+        let rig = WallRig::new(ROOM, cameras, HEIGHTS).unwrap();
+        let guess = rig.cameras(&rig.first_guess());
+        assert_eq!(guess.len(), cameras);
+        for camera in &guess {
+            let p = camera.position_m;
+            assert_eq!(p.z, -2.5);
+            let ahead = Vector3::new(camera.azimuth_rad.cos(), camera.azimuth_rad.sin(), 0.0);
+            // On the north or south wall it looks along x, on the others along y, and inwards.
+            let onto = if p.x.abs() == 4.0 { p.x } else { p.y };
+            assert_abs_diff_eq!(ahead.dot(&p), -onto.abs(), epsilon = 1e-12);
+        }
+        let inside = |values: &[f64]| {
+            let bounds = rig.variables();
+            values.iter().zip(&bounds).all(|(x, v)| v.bounds.contains(x))
+        };
+        assert!(inside(&rig.first_guess()));
+    }
+}
+
+/// Nothing covered costs 1.1, all covered nothing.
+#[test]
+fn exact_costs() {
+    let none = task(lens(40.0, 26.0, 100.0), 1, 0.5).coverage(&[]).unwrap();
+    assert_abs_diff_eq!(none.cost(), 1.1, epsilon = 1e-12);
+    let all = Coverage {
+        seen_by: Vec::new(),
+        fraction: 1.0,
+        progress: 1.0,
+    };
+    assert_eq!(all.cost(), 0.0);
+}
+
+#[test]
+fn exact_rigs_that_are_none() {
+    assert_eq!(WallRig::new(ROOM, 0, HEIGHTS), Err(CoverageError::NoCameras));
+    for heights in [3.0..=1.0, -1.0..=2.0, 1.0..=5.0, f64::NAN..=2.0] {
+        let refused = WallRig::new(ROOM, 4, heights).unwrap_err();
+        assert!(matches!(refused, CoverageError::BadHeights { .. }), "{refused}");
+    }
+    let flat = Room { width_m: 0.0, ..ROOM };
+    assert!(matches!(
+        WallRig::new(flat, 4, HEIGHTS),
+        Err(CoverageError::NonPositiveLength { .. })
+    ));
+}

@@ -1,6 +1,6 @@
 //! Figure C.1: coverage of the flight volume by cameras on the walls, before and after optimisation.
 
-use super::rig::{self, Settings};
+use super::rig::{Settings, variables};
 use super::rig_picture::picture;
 use crate::claim::Claim;
 use crate::data::DataTable;
@@ -9,7 +9,7 @@ use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
 use crate::plot::{Figure, Panel, series_style};
 use std::ops::ControlFlow;
-use sysid::coverage::{Camera, Coverage, Task};
+use sysid::coverage::{Camera, Coverage, Task, WallRig};
 use wpt_optim::optimisers::{Evolution, EvolutionSettings, Limits, Report, run};
 
 /// The figure.
@@ -34,10 +34,10 @@ const EVALUATIONS: u64 = 4000;
 fn draw(_context: &Context) -> Result<Drawing, ItemError> {
     let settings = Settings::nominal(EVALUATIONS);
     let task = settings.task()?;
-    let room = task.room();
-    let before = rig::cameras(room, &rig::initial(room));
-    let report = optimised(&task, &settings)?;
-    let after = rig::cameras(room, &report.best.candidate.values);
+    let rig = settings.rig()?;
+    let before = rig.cameras(&rig.first_guess());
+    let report = optimised(&task, &rig, &settings)?;
+    let after = rig.cameras(&report.best.candidate.values);
     let (seen_before, seen_after) = (task.coverage(&before)?, task.coverage(&after)?);
     let figure = Figure::columns(3)
         .legends(Legends::EachPanel)
@@ -66,16 +66,16 @@ fn draw(_context: &Context) -> Result<Drawing, ItemError> {
         ))
 }
 
-fn optimised(task: &Task, settings: &Settings) -> Result<Report, ItemError> {
+fn optimised(task: &Task, rig: &WallRig, settings: &Settings) -> Result<Report, ItemError> {
     let evolution = EvolutionSettings {
         seed: settings.seed,
         ..EvolutionSettings::default()
     };
-    let mut search = Evolution::new(rig::variables(task.room()), evolution)?;
+    let mut search = Evolution::new(variables(rig), evolution)?;
     // A rig that can't be counted fails; mounts on the walls always can.
     let cost = |x: &[f64]| {
-        let coverage = task.coverage(&rig::cameras(task.room(), x));
-        coverage.map_or(f64::INFINITY, |coverage| rig::cost(&coverage))
+        let coverage = task.coverage(&rig.cameras(x));
+        coverage.map_or(f64::INFINITY, |coverage| coverage.cost())
     };
     let limits = Limits::evaluations(settings.evaluations);
     Ok(run(

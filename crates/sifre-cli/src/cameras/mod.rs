@@ -1,0 +1,137 @@
+//! `sifre cameras`: where motion-capture cameras go on the walls of a room.
+
+mod file;
+mod output;
+
+use crate::exit::{Exit, Failure};
+use crate::{disk, drawing, interrupt, report, sweep};
+use file::RoomFile;
+use sifre::Variable;
+use std::path::PathBuf;
+use sysid::coverage::{Camera, Coverage, CoverageError, Task, WallRig};
+use wpt_optim::optimisers::{Evolution, EvolutionSettings, Limits, Report, StopReason, run as search};
+
+/// The commented room that `--template` prints.
+const TEMPLATE: &str = include_str!("../../cameras.toml");
+
+/// Arguments of `sifre cameras`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  sifre cameras --template > room.toml
+  sifre cameras room.toml --plot room.svg --out cameras.csv")]
+pub(crate) struct Arguments {
+    /// The room, the volume that is flown in, and the cameras.
+    #[arg(required_unless_present = "template")]
+    room: Option<PathBuf>,
+    /// Print a commented room to start from.
+    #[arg(long, exclusive = true)]
+    template: bool,
+    /// Judge the cameras of the file, and look for no others.
+    #[arg(long)]
+    no_search: bool,
+    /// Where to write the cameras found (those of the file with --no-search), as CSV.
+    #[arg(long, short)]
+    out: Option<PathBuf>,
+    /// Where to draw the room from above, .svg or .png.
+    #[arg(long)]
+    plot: Option<PathBuf>,
+}
+
+/// A rig and what it sees.
+struct Judged {
+    name: &'static str,
+    cameras: Vec<Camera>,
+    coverage: Coverage,
+}
+
+impl Judged {
+    fn of(task: &Task, name: &'static str, cameras: Vec<Camera>) -> Result<Self, CoverageError> {
+        let coverage = task.coverage(&cameras)?;
+        Ok(Self {
+            name,
+            cameras,
+            coverage,
+        })
+    }
+}
+
+/// Places cameras.
+pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    let Some(path) = arguments.room.as_ref().filter(|_| !arguments.template) else {
+        report::say(TEMPLATE);
+        return Ok(Exit::Done);
+    };
+    let file = RoomFile::read(path)?;
+    let refuse = |error: CoverageError| Failure::Usage(format!("{}: {error}", path.display()));
+    let task = file.task().map_err(refuse)?;
+    let rig = file.wall_rig().map_err(refuse)?;
+    if let Some(plot) = &arguments.plot {
+        drawing::check(plot)?;
+    }
+    if let Some(out) = &arguments.out {
+        disk::is_no_input(out, std::slice::from_ref(path))?;
+        disk::can_be_replaced(out)?;
+    }
+    let hanging = file.hanging();
+    let begun = if hanging.is_empty() {
+        Judged::of(&task, "first guess", rig.cameras(&rig.first_guess()))
+    } else {
+        Judged::of(&task, "as they hang", hanging)
+    };
+    let mut judged = vec![begun.map_err(refuse)?];
+    let found = (!arguments.no_search)
+        .then(|| placed(&task, &rig, &file, json))
+        .transpose()?;
+    if let Some(found) = &found {
+        let cameras = rig.cameras(&found.best.candidate.values);
+        judged.push(Judged::of(&task, "found", cameras).map_err(refuse)?);
+    }
+    if let (Some(out), Some(best)) = (&arguments.out, judged.last()) {
+        disk::replace(out, output::csv(&best.cameras))?;
+    }
+    if let Some(plot) = &arguments.plot {
+        drawing::write(plot, &output::figure(&file, &task, &judged))?;
+    }
+    if json {
+        report::print(&output::json(&judged, found.as_ref()));
+    } else {
+        report::say(output::text(&file, &judged, found.as_ref()));
+    }
+    Ok(match found {
+        Some(Report {
+            stop: StopReason::Interrupted,
+            ..
+        }) => Exit::Interrupted,
+        _ => Exit::Done,
+    })
+}
+
+/// Looks for places by differential evolution.
+fn placed(task: &Task, rig: &WallRig, file: &RoomFile, json: bool) -> Result<Report, Failure> {
+    let variables = rig.variables().into_iter().map(|v| Variable {
+        name: v.name,
+        unit: v.unit.to_owned(),
+        lower: *v.bounds.start(),
+        upper: *v.bounds.end(),
+    });
+    let settings = EvolutionSettings {
+        seed: file.search.seed,
+        ..EvolutionSettings::default()
+    };
+    let mut evolution = Evolution::new(variables.collect(), settings)
+        .map_err(|error| Failure::Usage(format!("search: {error}")))?;
+    interrupt::listen();
+    let bar = sweep::progress_bar(file.search.evaluations, 0, json);
+    let cost = |x: &[f64]| task.coverage(&rig.cameras(x)).map_or(f64::INFINITY, |c| c.cost());
+    let report = search(
+        &mut evolution,
+        cost,
+        Limits::evaluations(file.search.evaluations),
+        &mut |progress| {
+            bar.set_position(progress.evaluations);
+            interrupt::flow()
+        },
+    );
+    bar.finish_and_clear();
+    report.map_err(|error| Failure::Usage(format!("search: {error}")))
+}
