@@ -112,7 +112,7 @@ mod tests {
     use crate::output::Answer;
     use sysid::Estimate;
 
-    const NOMINAL: &str = include_str!("../../../data/vehicles/qball-x4.toml");
+    const NOMINAL: &str = quad_dynamics::vehicle::builtin::QBALL_X4_TOML;
 
     #[test]
     fn exact_only_the_identified_lines_change() {

@@ -27,6 +27,7 @@ mod model;
 mod motor;
 mod propeller;
 mod simple;
+pub mod tables;
 #[cfg(test)]
 mod tests;
 

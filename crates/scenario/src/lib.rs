@@ -52,6 +52,7 @@ mod key;
 mod library;
 mod metrics;
 mod read;
+mod ready;
 
 pub use build::{AgentInfo, AgentKind, Built};
 pub use error::{EstimatorFault, KeyError, ScenarioError};
@@ -67,6 +68,7 @@ pub use key::{get, set};
 pub use library::{Files, STATIONS, VEHICLES};
 pub use metrics::{Metric, MetricsBox};
 pub use read::{Place, Position};
+pub use ready::{READY, ready};
 
 /// The example of the README, compiled and run.
 #[cfg(doctest)]

@@ -1,7 +1,7 @@
 //! `sifre doctor`: does everything work here?
 
 use crate::exit::{Exit, Failure};
-use crate::new::READY;
+use crate::new::known;
 use crate::report;
 use quad_dynamics::Vehicle;
 use scenario::{Scenario, VEHICLES};
@@ -87,10 +87,10 @@ fn files() -> Result<String, Box<dyn Error>> {
 }
 
 fn scenarios() -> Result<String, Box<dyn Error>> {
-    for (name, text) in READY {
+    for (name, text) in known() {
         Scenario::from_toml_str(text, name)?.build(&())?.fly()?;
     }
-    Ok(format!("{} of them", READY.len()))
+    Ok(format!("{} of them", known().count()))
 }
 
 /// The engine agrees with `u = m g / (4 K_T)`, found without it.

@@ -5,56 +5,13 @@ use crate::exit::{Exit, Failure};
 use crate::report;
 use std::path::PathBuf;
 
-/// The scenarios that come with the project: name and file.
-pub(crate) const READY: [(&str, &str); 20] = [
-    ("template", include_str!("../template.toml")),
-    ("hover", include_str!("../../../scenarios/hover.toml")),
-    (
-        "step-in-height",
-        include_str!("../../../scenarios/step-in-height.toml"),
-    ),
-    (
-        "horizontal-step",
-        include_str!("../../../scenarios/horizontal-step.toml"),
-    ),
-    ("helix", include_str!("../../../scenarios/helix.toml")),
-    ("waypoints", include_str!("../../../scenarios/waypoints.toml")),
-    ("gust", include_str!("../../../scenarios/gust.toml")),
-    (
-        "estimator-in-the-loop",
-        include_str!("../../../scenarios/estimator-in-the-loop.toml"),
-    ),
-    ("wrong-start", include_str!("../../../scenarios/wrong-start.toml")),
-    (
-        "near-the-ground",
-        include_str!("../../../scenarios/near-the-ground.toml"),
-    ),
-    ("crazyflie", include_str!("../../../scenarios/crazyflie.toml")),
-    ("payload", include_str!("../../../scenarios/payload.toml")),
-    (
-        "level-change",
-        include_str!("../../../scenarios/level-change.toml"),
-    ),
-    ("track-fixed", include_str!("../../../scenarios/track-fixed.toml")),
-    ("lost-view", include_str!("../../../scenarios/lost-view.toml")),
-    (
-        "power-transmission-10s",
-        include_str!("../../../scenarios/power-transmission-10s.toml"),
-    ),
-    (
-        "power-transmission-20s",
-        include_str!("../../../scenarios/power-transmission-20s.toml"),
-    ),
-    (
-        "optimise-transmission",
-        include_str!("../../../scenarios/optimise-transmission.toml"),
-    ),
-    (
-        "two-quadrotors",
-        include_str!("../../../scenarios/two-quadrotors.toml"),
-    ),
-    ("swarm", include_str!("../../../scenarios/swarm.toml")),
-];
+/// The scenario that explains every key.
+const TEMPLATE: (&str, &str) = ("template", include_str!("../template.toml"));
+
+/// The template, then the scenarios that come with the project: name and text.
+pub(crate) fn known() -> impl Iterator<Item = (&'static str, &'static str)> {
+    std::iter::once(TEMPLATE).chain(scenario::READY.iter().copied())
+}
 
 /// Arguments of `sifre new`.
 #[derive(Debug, clap::Args)]
@@ -62,7 +19,7 @@ pub(crate) struct Arguments {
     /// The file to write; on standard output without one.
     file: Option<PathBuf>,
     /// What to start from: `template` explains every key, the others are ready to fly.
-    #[arg(long, default_value = "template", value_parser = clap::builder::PossibleValuesParser::new(READY.map(|(name, _)| name)))]
+    #[arg(long, default_value = "template", value_parser = clap::builder::PossibleValuesParser::new(known().map(|(name, _)| name)))]
     from: String,
     /// Replace a file that is there already.
     #[arg(long)]
@@ -71,8 +28,8 @@ pub(crate) struct Arguments {
 
 /// Writes a scenario.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
-    let known = READY.iter().find(|(name, _)| *name == arguments.from);
-    let text = known.map_or(READY[0].1, |(_, text)| text);
+    let chosen = known().find(|(name, _)| *name == arguments.from);
+    let (_, text) = chosen.unwrap_or(TEMPLATE);
     let Some(path) = &arguments.file else {
         report::say(text);
         return Ok(Exit::Done);

@@ -15,7 +15,7 @@ pub use error::StationError;
 pub use file::{Order, Sourced, StationFile};
 
 /// Text of `data/stations/ets.toml`: the project's nominal station.
-pub const NOMINAL_TOML: &str = include_str!("../../../../data/stations/ets.toml");
+pub const NOMINAL_TOML: &str = include_str!("../../data/stations/ets.toml");
 
 /// A station's parameters, SI units and rad throughout.
 ///

@@ -3,11 +3,11 @@
 use super::Vehicle;
 
 /// Text of `data/vehicles/qball-x4.toml`: the project's nominal Qball-X4.
-pub const QBALL_X4_TOML: &str = include_str!("../../../../data/vehicles/qball-x4.toml");
+pub const QBALL_X4_TOML: &str = include_str!("../../data/vehicles/qball-x4.toml");
 /// Text of `data/vehicles/qball-x4-vendor.toml`: the vendor's parameters of the Qball-X4 only.
-pub const QBALL_X4_VENDOR_TOML: &str = include_str!("../../../../data/vehicles/qball-x4-vendor.toml");
+pub const QBALL_X4_VENDOR_TOML: &str = include_str!("../../data/vehicles/qball-x4-vendor.toml");
 /// Text of `data/vehicles/crazyflie.toml`: a 27 g quadrotor on an X layout.
-pub const CRAZYFLIE_TOML: &str = include_str!("../../../../data/vehicles/crazyflie.toml");
+pub const CRAZYFLIE_TOML: &str = include_str!("../../data/vehicles/crazyflie.toml");
 
 impl Vehicle {
     /// The project's nominal Qball-X4, every group present: see [`QBALL_X4_TOML`].

@@ -6,8 +6,8 @@ use sifre::{Recording, StepSize};
 
 /// The text of a ready scenario.
 pub(crate) fn ready(name: &str) -> String {
-    let path = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+    let text = scenario::ready(name).unwrap_or_else(|| panic!("no ready scenario {name}"));
+    text.to_owned()
 }
 
 /// A scenario flown to its end, and its recording.

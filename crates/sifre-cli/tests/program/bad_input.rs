@@ -1,6 +1,7 @@
 //! What is refused, with which exit code, and how it is said.
 
 use crate::support::{Folder, ready};
+use quad_dynamics::vehicle::builtin::CRAZYFLIE_TOML;
 use std::fs;
 
 #[test]
@@ -50,13 +51,7 @@ fn exact_bad_scenarios_exit_with_2() {
 #[test]
 fn exact_an_own_drone_is_a_file() {
     let folder = Folder::new("own");
-    let file = format!(
-        "{}/../../data/vehicles/crazyflie.toml",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    let mine = fs::read_to_string(file)
-        .unwrap()
-        .replace("value = 0.027", "value = 0.035");
+    let mine = CRAZYFLIE_TOML.replace("value = 0.027", "value = 0.035");
     folder.write("my-drone.toml", mine);
     let scenario = fs::read_to_string(ready("crazyflie")).unwrap();
     let scenario = scenario.replace("vehicle = \"crazyflie\"", "vehicle = \"my-drone.toml\"");
@@ -97,12 +92,7 @@ fn exact_outputs_that_are_inputs_or_no_recordings_exit_with_2() {
     let hover = fs::read_to_string(ready("hover")).unwrap();
     let own = hover.replace("path = \"hover.csv\"", "path = \"own.toml\"\nformat = \"csv\"");
     folder.write("own.toml", &own);
-    let drone = fs::read_to_string(format!(
-        "{}/../../data/vehicles/crazyflie.toml",
-        env!("CARGO_MANIFEST_DIR")
-    ));
-    let drone = drone.unwrap();
-    folder.write("drone.toml", &drone);
+    folder.write("drone.toml", CRAZYFLIE_TOML);
     folder
         .run(&["run", "-q", "own.toml"])
         .exits(2)
@@ -119,7 +109,10 @@ fn exact_outputs_that_are_inputs_or_no_recordings_exit_with_2() {
             .says(&["drone.toml is an input of this flight"]);
     }
     assert_eq!(fs::read_to_string(folder.path("own.toml")).unwrap(), own);
-    assert_eq!(fs::read_to_string(folder.path("drone.toml")).unwrap(), drone);
+    assert_eq!(
+        fs::read_to_string(folder.path("drone.toml")).unwrap(),
+        CRAZYFLIE_TOML
+    );
     folder
         .run(&["run", "-q", "own.toml", "--out", "flight.json"])
         .exits(2)

@@ -3,6 +3,7 @@
 
 use crate::saved::rows;
 use crate::support::{Folder, Ran, ready};
+use quad_dynamics::vehicle::builtin::QBALL_X4_TOML;
 use sifre::Recording;
 use std::fs::{self, File};
 use std::path::Path;
@@ -176,12 +177,8 @@ fn exact_an_interrupted_optimisation_goes_on() {
 fn exact_a_search_does_not_go_on_with_another_vehicle() {
     let folder = Folder::new("another-vehicle");
     fs::copy(ready("optimise-transmission"), folder.path("mine.toml")).unwrap();
-    let vehicle = fs::read_to_string(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../data/vehicles/qball-x4.toml"
-    ))
-    .unwrap();
-    fs::write(folder.path("drone.toml"), &vehicle).unwrap();
+    let vehicle = QBALL_X4_TOML;
+    fs::write(folder.path("drone.toml"), vehicle).unwrap();
     let search = |last: &[&str]| {
         let given = [
             "optimise",

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A folder that is removed with the test.
 pub(crate) struct Folder(PathBuf);
@@ -89,7 +90,20 @@ impl Ran {
 
 /// A ready scenario.
 pub(crate) fn ready(name: &str) -> String {
-    let path = format!("{}/../../scenarios/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let path = Path::new(&path).canonicalize().expect("a ready scenario");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("ready");
+    fs::create_dir_all(&folder).expect("a folder of the tests' own");
+    let path = folder.join(format!("{name}.toml"));
+    let text = scenario::ready(name).expect("a ready scenario");
+    // Renamed into place: tests beside this one may be reading the same file.
+    let own = tempfile_beside(&path);
+    fs::write(&own, text).expect("a file of this test's own");
+    fs::rename(&own, &path).expect("within one folder");
     path.display().to_string()
+}
+
+/// A name beside `path` that no other test uses.
+fn tempfile_beside(path: &Path) -> PathBuf {
+    static USED: AtomicUsize = AtomicUsize::new(0);
+    let number = USED.fetch_add(1, Ordering::Relaxed);
+    path.with_extension(format!("{}-{number}", std::process::id()))
 }

@@ -1,8 +1,8 @@
 //! `sifre uncertainty`: against flights with the numbers set by hand, first order against Monte Carlo, and bad input.
 
 use crate::support::{Folder, ready};
+use quad_dynamics::vehicle::builtin::QBALL_X4_VENDOR_TOML;
 use serde_json::Value;
-use std::fs;
 
 const SCENARIO: &str = r#"
 name = "up"
@@ -24,12 +24,7 @@ const METRIC: &str = "alpha.z.steady_state_error_m";
 fn folder(test: &str) -> Folder {
     let folder = Folder::new(test);
     folder.write("up.toml", SCENARIO);
-    let path = format!(
-        "{}/../../data/vehicles/qball-x4-vendor.toml",
-        env!("CARGO_MANIFEST_DIR")
-    );
-    let text = fs::read_to_string(path).unwrap();
-    let mut file: toml::Table = toml::from_str(&text).unwrap();
+    let mut file: toml::Table = toml::from_str(QBALL_X4_VENDOR_TOML).unwrap();
     let number = file["airframe"]["mass_kg"].as_table_mut().unwrap();
     number.insert("standard_error".to_owned(), 0.01.into());
     folder.write("identified.toml", toml::to_string(&file).unwrap());

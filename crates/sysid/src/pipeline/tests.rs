@@ -40,7 +40,7 @@ fn truth() -> VehicleFile {
 }
 
 fn nominal() -> VehicleFile {
-    VehicleFile::from_toml_str(include_str!("../../../../data/vehicles/qball-x4.toml"), "nominal").unwrap()
+    VehicleFile::from_toml_str(quad_dynamics::vehicle::builtin::QBALL_X4_TOML, "nominal").unwrap()
 }
 
 fn identified(seed: u64) -> Identified {

@@ -7,9 +7,7 @@ use super::super::derive::{
     fit_propeller, rad_per_s,
 };
 use super::Vehicle;
-
-const STATIC_CSV: &str = include_str!("../../../../../data/propellers/apc_sf_10x4.7_static.csv");
-const ADVANCE_CSV: &str = include_str!("../../../../../data/propellers/apc_sf_10x4.7_advance.csv");
+use quad_rotor::tables::{APC_SF_10X4_7_ADVANCE_CSV as ADVANCE_CSV, APC_SF_10X4_7_STATIC_CSV as STATIC_CSV};
 
 /// Files print six digits of derived numbers (four of drag): half a unit of the last one, with room.
 const PRINTED: f64 = 1e-5;

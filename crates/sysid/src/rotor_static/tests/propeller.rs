@@ -2,11 +2,9 @@
 
 use super::*;
 use quad_dynamics::vehicle::derive::{self, rad_per_s};
+use quad_rotor::tables::{APC_SF_10X4_7_ADVANCE_CSV as ADVANCE, APC_SF_10X4_7_STATIC_CSV as STATIC};
 use serde::Deserialize;
 use std::f64::consts::TAU;
-
-const STATIC: &str = include_str!("../../../../../data/propellers/apc_sf_10x4.7_static.csv");
-const ADVANCE: &str = include_str!("../../../../../data/propellers/apc_sf_10x4.7_advance.csv");
 
 #[derive(Deserialize)]
 struct StaticRow {
