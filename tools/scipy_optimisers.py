@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What SciPy's optimisers find on the standard test functions: the oracle of wpt-optim's tests.
+"""What SciPy's optimisers find on the standard test functions: the oracle of optim's tests.
 
-    python3 tools/scipy_optimisers.py > crates/wpt-optim/tests/data/scipy_optimisers.json
+    python3 tools/scipy_optimisers.py > crates/optim/tests/data/scipy_optimisers.json
 
 Needs SciPy. Every float is written so that it reads back bit for bit. Nelder-Mead starts from a given simplex, and all
 points it evaluates are recorded; the rest is compared by its minimum only, because the random numbers are others.

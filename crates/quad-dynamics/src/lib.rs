@@ -60,11 +60,10 @@
 //! | wind over height | [`Shear`] | MIL-F-8785C |
 //! | process noise `Δv = σ √h n` | [`ProcessNoise`] | 3.7; Gelb 1974 |
 //! | resolution, its partial order | [`Resolution`] | 5.1.4 |
-//! | shares of a difference between levels | [`Parts::attribute`] | Shapley 1953 |
-//! | what standard errors make of a result, `σ_y² = Σ (∂y/∂p_k σ_k)²` | [`sensitivity`], [`UncertainVehicle`] | JCGM 100:2008 |
+//! | a vehicle within its standard errors | [`UncertainVehicle`] | JCGM 100:2008 |
 //! | rotors | [`quad_rotor`], one type per model | 3.5, 4.5 |
 //! | battery current `Σ d_i (K_v Q_i + I_0)` | [`CurrentDraw`] | choice |
-//! | hover trim | [`QuadrotorModel::hover`], solved in `build.rs` | |
+//! | hover trim | [`QuadrotorModel::hover`], solved in `trim.rs` | |
 //!
 //! # Conventions
 //!
@@ -80,9 +79,8 @@
 //! turn. [`AnyQuadrotor::at_level`] does both.
 
 mod any;
-mod attribution;
+pub mod assemble;
 mod blockage;
-pub mod build;
 mod drag;
 mod dryden;
 mod error;
@@ -98,14 +96,13 @@ mod quadrotor;
 mod quadrotor_state;
 mod resolution;
 mod rigid_body;
-pub mod sensitivity;
 mod shear;
 #[cfg(test)]
 mod tests;
+mod trim;
 pub mod vehicle;
 
 pub use any::{AnyQuadrotor, InFlight};
-pub use attribution::{Attribution, AttributionError, MOST_PARTS, Parts, Share, shapley_values};
 pub use blockage::Blockage;
 pub use drag::Drag;
 pub use dryden::{

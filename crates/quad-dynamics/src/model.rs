@@ -183,8 +183,8 @@ pub trait QuadrotorModel<R: Real>:
         Self::build_with(vehicle, &vehicle.map(quad_math::constant), phenomena)
     }
 
-    /// As [`QuadrotorModel::build`], with the vehicle's numbers over the model's scalar: the same ones, with derivatives
-    /// ([`crate::sensitivity::differentiable`]). The commands of hover are those of `vehicle`, constants.
+    /// As [`QuadrotorModel::build`], with the vehicle's numbers over the model's scalar: the same ones, with derivatives.
+    /// The commands of hover are those of `vehicle`, constants.
     ///
     /// # Errors
     /// As [`QuadrotorModel::build`].

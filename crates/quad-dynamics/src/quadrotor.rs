@@ -318,8 +318,8 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> System<R> for Bare<'_, R, M, S> {
 impl<R, M, S> QuadrotorModel<R> for Quadrotor<R, M, S>
 where
     R: Real,
-    M: crate::build::FamilyRotor<R, Supply = S>,
-    S: crate::build::FamilySupply<R>,
+    M: crate::assemble::FamilyRotor<R, Supply = S>,
+    S: crate::assemble::FamilySupply<R>,
 {
     const LEVEL: Option<Level> = M::LEVEL;
 
@@ -328,7 +328,7 @@ where
         parameters: &Vehicle<R>,
         phenomena: &PhenomenonSet,
     ) -> Result<Self, BuildError> {
-        crate::build::quadrotor(vehicle, parameters, phenomena)
+        crate::assemble::quadrotor(vehicle, parameters, phenomena)
     }
 
     #[inline(always)]

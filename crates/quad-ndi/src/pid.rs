@@ -21,9 +21,7 @@
 
 mod tuning;
 
-pub use tuning::{
-    LoopReport, LoopTarget, StartReport, Termination, Tuned, TunedLoop, TuningError, TuningOptions, tune,
-};
+pub use tuning::{LoopReport, LoopTarget, StartReport, Tuned, TunedLoop, TuningError, TuningOptions, tune};
 
 use crate::controller::{Allocation, Control, Controller, ControllerError, Demand, limited, wrapped};
 use crate::{Reference, SettingsError};

@@ -1,6 +1,6 @@
 //! A scenario in flight, and how it ends.
 
-use crate::build::{AgentInfo, Built, Goal};
+use crate::assemble::{AgentInfo, Built, Goal};
 use crate::error::ScenarioError;
 use crate::file::{BoxLimits, OutputFile, StopFile};
 use sifre::{

@@ -44,7 +44,7 @@
 //!
 //! It has no loops or expressions: a family of scenarios is a sweep. It draws nothing.
 
-mod build;
+mod assemble;
 mod error;
 mod file;
 mod flight;
@@ -54,7 +54,7 @@ mod metrics;
 mod read;
 mod ready;
 
-pub use build::{AgentInfo, AgentKind, Built};
+pub use assemble::{AgentInfo, AgentKind, Built};
 pub use error::{EstimatorFault, KeyError, ScenarioError};
 pub use file::{
     Algorithm, AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, ErrorFile, EstimatorFile,

@@ -46,7 +46,7 @@
 //! | quadrotor | [`Quadrotor`] | flown by a [`Pilot`](quadrotor::Pilot): any controller or [`OpenLoop`](quadrotor::OpenLoop); asked by [`Guidance`]: [`Mission`], [`Follow`], [`Facing`], a fixed reference |
 //! | estimator on board | [`Estimation`](quadrotor::Estimation) | in the loop or beside it: any level, extended or unscented |
 //! | energy transmission system | [`Ets`] | |
-//! | optimiser | [`Optimiser`] | [`RandomSearch`] |
+//! | optimiser | [`Optimiser`] | those of [`optim`]: simplex, line search, annealing, evolution, random search |
 //!
 //! # Time
 //!
@@ -82,7 +82,6 @@ mod ets;
 mod event;
 mod exact;
 mod guidance;
-mod optimiser;
 pub mod quadrotor;
 mod schedule;
 mod simulation;
@@ -97,9 +96,7 @@ pub use error::{BindError, SimulationError, SnapshotError, UnknownAgent};
 pub use event::{AgentEvent, Event};
 pub use exact::Exact;
 pub use guidance::{Facing, Follow, Guidance, Mission, Tilt};
-pub use optimiser::{
-    Candidate, Evaluation, Optimiser, OptimiserError, RandomSearch, TellError, Variable, minimise,
-};
+pub use optim::Optimiser;
 pub use quad_math::GridError;
 pub use quadrotor::Quadrotor;
 pub use schedule::{Entry, Schedule, ScheduleError};

@@ -59,7 +59,6 @@
 //! ```
 
 pub mod centre_of_mass;
-pub mod coverage;
 pub mod estimate;
 pub mod flight;
 pub mod laboratory;

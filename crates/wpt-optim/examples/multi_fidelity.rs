@@ -5,11 +5,11 @@
 //! Prints the optimum of each level on the way, and the flights of every level beside those of Nelder and Mead's simplex at level 5
 //! alone. Figure beyond.4 does this from twenty starts.
 
+use optim::multi_fidelity::{LevelCost, MultiFidelitySettings, multi_fidelity};
+use optim::{Limits, NelderMead, SimplexSettings, minimise};
 use quad_dynamics::Level;
 use std::error::Error;
 use std::ops::ControlFlow;
-use wpt_optim::multi_fidelity::{LevelCost, MultiFidelitySettings, multi_fidelity};
-use wpt_optim::optimisers::{Limits, NelderMead, SimplexSettings, run};
 use wpt_optim::{Choice, Objective, Problem};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -41,12 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..SimplexSettings::default()
     };
     let mut simplex = NelderMead::new(top.variables(), &top.start(), modest)?;
-    let alone = run(
-        &mut simplex,
-        costs[costs.len() - 1],
-        Limits::evaluations(1000),
-        &mut |_| ControlFlow::Continue(()),
-    )?;
+    let alone = minimise(&mut simplex, costs[costs.len() - 1], Limits::evaluations(1000))?;
     println!("flights at levels 1 to 5: {:?}", guided.calls);
     println!(
         "level 5 alone: Phi = {:.5} with {} flights; {}",

@@ -2,8 +2,8 @@
 
 use crate::condition::Condition;
 use crate::error::ProblemError;
+use optim::{Space, Variable};
 use serde::{Deserialize, Serialize};
-use sifre::Variable;
 
 /// A boundary condition that is decided on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,44 +30,11 @@ impl Decision {
             upper: self.upper,
         }
     }
-
-    fn check(&self) -> Result<(), ProblemError> {
-        let Self {
-            condition,
-            lower,
-            upper,
-            start,
-        } = *self;
-        if !(lower.is_finite() && upper.is_finite() && lower < upper) {
-            return Err(ProblemError::BadBounds {
-                condition,
-                lower,
-                upper,
-            });
-        }
-        if !(lower..=upper).contains(&start) {
-            return Err(ProblemError::StartOutside {
-                condition,
-                start,
-                lower,
-                upper,
-            });
-        }
-        Ok(())
-    }
 }
 
 /// Checks a list of variables: at least one, none twice, bounds in order, starts within.
 pub(crate) fn check(decisions: &[Decision]) -> Result<(), ProblemError> {
-    if decisions.is_empty() {
-        return Err(ProblemError::NoVariables);
-    }
-    for (i, decision) in decisions.iter().enumerate() {
-        decision.check()?;
-        if decisions[..i].iter().any(|d| d.condition == decision.condition) {
-            let condition = decision.condition;
-            return Err(ProblemError::Twice { condition });
-        }
-    }
-    Ok(())
+    let space = Space::new(decisions.iter().map(Decision::variable).collect())?;
+    let start: Vec<f64> = decisions.iter().map(|d| d.start).collect();
+    Ok(space.admit(&start)?)
 }

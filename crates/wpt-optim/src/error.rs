@@ -3,6 +3,7 @@
 use crate::condition::Condition;
 use crate::cost::HEAVIEST;
 use ets::ClockError;
+use optim::SetupError;
 use quad_dynamics::BuildError;
 use quad_math::{GridError, SegmentError};
 use quad_ndi::ControllerError;
@@ -10,37 +11,9 @@ use quad_ndi::ControllerError;
 /// Why a problem can't be posed, or not be evaluated there.
 #[derive(Debug, thiserror::Error)]
 pub enum ProblemError {
-    /// Nothing to decide.
-    #[error("a problem needs at least one decision variable")]
-    NoVariables,
-    /// The same variable twice.
-    #[error("decision variable {condition} is listed twice")]
-    Twice {
-        /// Which.
-        condition: Condition,
-    },
-    /// Bounds that enclose nothing.
-    #[error("{condition} must lie between two finite bounds, lower first, not between {lower} and {upper}")]
-    BadBounds {
-        /// Of which variable.
-        condition: Condition,
-        /// Its lower bound.
-        lower: f64,
-        /// Its upper bound.
-        upper: f64,
-    },
-    /// A start outside the bounds.
-    #[error("{condition} can't start at {start}: its bounds are {lower} and {upper}")]
-    StartOutside {
-        /// Of which variable.
-        condition: Condition,
-        /// The start.
-        start: f64,
-        /// The lower bound.
-        lower: f64,
-        /// The upper bound.
-        upper: f64,
-    },
+    /// Variables: none, one twice, bounds that enclose nothing, a start outside of them.
+    #[error(transparent)]
+    Variables(#[from] SetupError),
     /// A boundary condition of the mission that is no number.
     #[error("boundary condition {condition} = {value}: it must be finite")]
     BoundaryNotFinite {

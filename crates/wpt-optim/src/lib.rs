@@ -1,4 +1,4 @@
-//! Trajectories for wireless power transmission: the problem, its rollouts and its optimisers.
+//! Trajectories for wireless power transmission: the problem, its rollouts and its cost.
 //!
 //! A quadrotor crosses the field of a ground station that keeps a laser on the receiver it carries. Where should it cross, and how
 //! fast should it enter and leave, so that range, incidence and spot offset stay small? A [`Problem`] is that question at one level of the model
@@ -40,7 +40,7 @@
 //! | many, on lanes and all cores | [`Problem::evaluate_all`], [`Problem::surface`] |
 //! | cost and gradient | [`Problem::gradient`] |
 //! | the same flight in the engine, bit for bit | [`Problem::simulation`] |
-//! | a function for optimisers that counts | [`Objective`] |
+//! | a function for the optimisers of [`optim`] that counts | [`Objective`], with [`Problem::variables`] |
 //!
 //! # Conventions
 //!
@@ -62,15 +62,12 @@ mod error;
 mod fleet;
 mod ideal;
 mod mission;
-pub mod multi_fidelity;
 mod nominal;
-pub mod optimisers;
 mod outcome;
 mod path;
 mod problem;
 mod recorded;
 mod rollout;
-pub mod selection;
 mod surface;
 
 pub use condition::{Axis, Condition, Order, Side, UnknownCondition};

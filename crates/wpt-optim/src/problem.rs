@@ -11,9 +11,9 @@ use crate::path::Path;
 use crate::rollout::Tally;
 use nalgebra::SimdValue;
 use num_dual::Dual64;
+use optim::Variable;
 use quad_dynamics::Level;
 use quad_math::{F64x4, Real};
-use sifre::Variable;
 use std::num::NonZeroU64;
 
 /// How many decisions are flown side by side.

@@ -48,8 +48,7 @@ impl Spin {
     }
 }
 
-/// A quadrotor's parameters, SI units throughout; over another scalar than f64 where they are differentiated
-/// ([`crate::sensitivity`]).
+/// A quadrotor's parameters, SI units throughout; over another scalar than f64 where they are differentiated.
 ///
 /// The fields are open: a study changes what it likes and may call [`Vehicle::validate`] again.
 #[derive(Debug, Clone, PartialEq)]

@@ -17,9 +17,8 @@
 //! Unknowns are the logarithms of the three gains over those that place the poles of `ÿ = u` at the reference
 //! model's and at `−ω/2` ([`PidGains::placed`]): `k_p = 2ω²`, `k_d = 2.5ω`, `k_i = 0.5ω³`, with the set-point weight
 //! ½ that makes the step of such a loop the reference model. The search moves them to what the rotors' lag, the
-//! limits and the load leave best, in a box: factor 10 either way for `k_p` and `k_d`, 30 for `k_i`. Outside the box the cost is
-//! that of the nearest point in it plus the squared distance. Nelder-Mead (argmin) searches from a few starts
-//! drawn within a factor 4 by ChaCha8 (rand_chacha) seeded with [`TuningOptions::seed`], and once more from the
+//! limits and the load leave best, in a box: factor 10 either way for `k_p` and `k_d`, 30 for `k_i`. Nelder-Mead
+//! ([`optim::NelderMead`]) searches from a few starts drawn within a factor 4 by ChaCha8 (rand_chacha) seeded with [`TuningOptions::seed`], and once more from the
 //! best end. The same options give the same gains to the last bit on the same build.
 
 mod search;
@@ -28,6 +27,7 @@ mod trial;
 use super::{PidGains, PidSettings};
 use crate::controller::ControllerError;
 use crate::settling::{self, LoopError};
+use optim::{RunError, SetupError, StopReason};
 use quad_dynamics::{BuildError, Level, Phenomenon, PhenomenonSet, Vehicle};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -93,8 +93,8 @@ pub struct TuningOptions {
     pub seed: u64,
     /// Random starts per loop; one more follows from the best end.
     pub starts: usize,
-    /// Nelder-Mead iterations per start, of one or two flights each, at most.
-    pub iterations: u64,
+    /// Most flights per start.
+    pub flights: u64,
 }
 
 impl Default for TuningOptions {
@@ -121,7 +121,7 @@ impl Default for TuningOptions {
             step_s: 0.002,
             seed: 1,
             starts: 3,
-            iterations: 100,
+            flights: 200,
         }
     }
 }
@@ -158,24 +158,15 @@ pub struct StartReport {
     /// Best cost.
     pub cost: f64,
     /// Flights flown.
-    pub evaluations: usize,
+    pub evaluations: u64,
     /// Why it stopped.
-    pub termination: Termination,
-}
-
-/// Why a search stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Termination {
-    /// The simplex has become flat.
-    Converged,
-    /// The iterations were used up.
-    OutOfIterations,
+    pub stop: StopReason,
 }
 
 /// A tuning that can't be done.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TuningError {
-    /// No start or no iteration.
+    /// No start or no flight.
     #[error("tuning option `{key}` = 0: nothing would be tuned")]
     Nothing {
         /// Which.
@@ -215,6 +206,12 @@ pub enum TuningError {
     /// The controller can't be built.
     #[error(transparent)]
     Controller(#[from] ControllerError),
+    /// The simplex refused its start.
+    #[error(transparent)]
+    Simplex(#[from] SetupError),
+    /// The search has no result.
+    #[error(transparent)]
+    Search(#[from] RunError),
 }
 
 impl TunedLoop {
@@ -273,7 +270,7 @@ impl TuningOptions {
 
     /// Checks everything that the models and the controller don't check themselves.
     fn check(&self) -> Result<(), TuningError> {
-        for (key, nothing) in [("starts", self.starts == 0), ("iterations", self.iterations == 0)] {
+        for (key, nothing) in [("starts", self.starts == 0), ("flights", self.flights == 0)] {
             if nothing {
                 return Err(TuningError::Nothing { key });
             }
@@ -321,8 +318,8 @@ impl TuningOptions {
 /// Gains for a vehicle by optimisation on a model of it; see the head of this file for what is minimised.
 ///
 /// # Errors
-/// Options that make no tuning; a model or a controller that can't be built. A search that ran out of
-/// iterations is no error: see [`StartReport::termination`].
+/// Options that make no tuning; a model or a controller that can't be built. A search that spent its
+/// flights is no error: see [`StartReport::stop`].
 pub fn tune(vehicle: &Vehicle, options: &TuningOptions) -> Result<Tuned, TuningError> {
     options.check()?;
     let mut settings = options.before()?;
@@ -330,7 +327,7 @@ pub fn tune(vehicle: &Vehicle, options: &TuningOptions) -> Result<Tuned, TuningE
     let mut loops = Vec::with_capacity(TunedLoop::ALL.len());
     for tuned in TunedLoop::ALL {
         let bench = trial::Bench::new(vehicle, options, tuned, &settings)?;
-        let report = search::search(&bench, options, tuned, &settings, &mut generator);
+        let report = search::search(&bench, options, tuned, &settings, &mut generator)?;
         *tuned.gains_mut(&mut settings) = report.gains;
         loops.push(report);
     }

@@ -15,9 +15,10 @@ use crate::disk::Beside;
 use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, Template, setting};
 use crate::{drawing, interrupt, measure, model, report};
-use quad_dynamics::{Attribution, AttributionError, Level, Parts, PhenomenonSet};
+use quad_dynamics::{Level, PhenomenonSet};
 use scenario::{End, Files, Law, Scenario};
 use std::path::PathBuf;
+use study::attribution::{Attribution, AttributionError, Parts};
 
 /// How it is used, as `--help` shows it.
 const EXAMPLE: &str = "\

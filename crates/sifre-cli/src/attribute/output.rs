@@ -5,12 +5,13 @@ use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
 use kuva::plot::BarPlot;
 use kuva::render::plots::Plot;
-use quad_dynamics::{Feature, Share};
+use quad_dynamics::Feature;
 use quad_plot::figure::Legends;
 use quad_plot::style::{BLUE, Look, Marker};
 use quad_plot::{Figure, Panel, series_style};
 use scenario::Law;
 use serde_json::{Value, json};
+use study::attribution::Share;
 
 fn part_name(share: &Share) -> String {
     match share.part {

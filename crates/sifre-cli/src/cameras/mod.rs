@@ -1,18 +1,12 @@
 //! `sifre cameras`: where motion-capture cameras go on the walls of a room.
 
-mod file;
 mod output;
 
 use crate::exit::{Exit, Failure};
 use crate::{disk, drawing, interrupt, report, sweep};
-use file::RoomFile;
-use sifre::Variable;
+use coverage::{Camera, Coverage, CoverageError, RoomFile, Task, WallRig};
+use optim::{Evolution, EvolutionSettings, Limits, Report, StopReason, run as search};
 use std::path::PathBuf;
-use sysid::coverage::{Camera, Coverage, CoverageError, Task, WallRig};
-use wpt_optim::optimisers::{Evolution, EvolutionSettings, Limits, Report, StopReason, run as search};
-
-/// The commented room that `--template` prints.
-const TEMPLATE: &str = include_str!("../../cameras.toml");
 
 /// Arguments of `sifre cameras`.
 #[derive(Debug, clap::Args)]
@@ -58,10 +52,11 @@ impl Judged {
 /// Places cameras.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let Some(path) = arguments.room.as_ref().filter(|_| !arguments.template) else {
-        report::say(TEMPLATE);
+        report::say(RoomFile::TEMPLATE);
         return Ok(Exit::Done);
     };
-    let file = RoomFile::read(path)?;
+    let file = RoomFile::from_toml_str(&disk::read(path)?)
+        .map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))?;
     let refuse = |error: CoverageError| Failure::Usage(format!("{}: {error}", path.display()));
     let task = file.task().map_err(refuse)?;
     let rig = file.wall_rig().map_err(refuse)?;
@@ -72,11 +67,11 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         disk::is_no_input(out, std::slice::from_ref(path))?;
         disk::can_be_replaced(out)?;
     }
-    let hanging = file.hanging();
-    let begun = if hanging.is_empty() {
+    let installed = file.installed();
+    let begun = if installed.is_empty() {
         Judged::of(&task, "first guess", rig.cameras(&rig.first_guess()))
     } else {
-        Judged::of(&task, "as they hang", hanging)
+        Judged::of(&task, "as they hang", installed)
     };
     let mut judged = vec![begun.map_err(refuse)?];
     let found = (!arguments.no_search)
@@ -108,24 +103,17 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
 
 /// Looks for places by differential evolution.
 fn placed(task: &Task, rig: &WallRig, file: &RoomFile, json: bool) -> Result<Report, Failure> {
-    let variables = rig.variables().into_iter().map(|v| Variable {
-        name: v.name,
-        unit: v.unit.to_owned(),
-        lower: *v.bounds.start(),
-        upper: *v.bounds.end(),
-    });
     let settings = EvolutionSettings {
         seed: file.search.seed,
         ..EvolutionSettings::default()
     };
-    let mut evolution = Evolution::new(variables.collect(), settings)
+    let mut evolution = Evolution::new(rig.variables(), settings)
         .map_err(|error| Failure::Usage(format!("search: {error}")))?;
     interrupt::listen();
     let bar = sweep::progress_bar(file.search.evaluations, 0, json);
-    let cost = |x: &[f64]| task.coverage(&rig.cameras(x)).map_or(f64::INFINITY, |c| c.cost());
     let report = search(
         &mut evolution,
-        cost,
+        |x: &[f64]| rig.cost(task, x),
         Limits::evaluations(file.search.evaluations),
         &mut |progress| {
             bar.set_position(progress.evaluations);

@@ -1,14 +1,13 @@
 //! Cameras as a table, as CSV, as JSON, and as a plan of the room.
 
 use super::Judged;
-use super::file::RoomFile;
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
+use coverage::{Camera, RoomFile, Task};
+use optim::Report;
 use quad_plot::style::{GREY, INK, Look, Marker};
 use quad_plot::{Figure, Panel, series_style};
 use serde_json::{Value, json};
-use sysid::coverage::{Camera, Task};
-use wpt_optim::optimisers::Report;
 
 /// Depth to which a camera's field is drawn, m.
 const DEPTH_M: f64 = 1.5;

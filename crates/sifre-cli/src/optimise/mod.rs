@@ -12,13 +12,12 @@ use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, setting};
 use crate::{interrupt, report};
 use indicatif::{ProgressBar, ProgressStyle};
+use optim::{Candidate, FAILED_COST, StopReason};
 use problem::{Flown, Keep, Problem};
 use rayon::prelude::*;
-use sifre::Candidate;
 use state::{Course, Row, State};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
-use wpt_optim::optimisers::{FAILED_COST, StopReason};
 
 /// How it is used, as `--help` shows it.
 const EXAMPLE: &str = "\
@@ -149,9 +148,7 @@ fn step(problem: &Problem, course: &mut Course, most: usize) -> Result<Option<St
     if most == 0 {
         return Ok(Some(StopReason::Budget { evaluations }));
     }
-    let batch: Vec<Candidate> = std::iter::from_fn(|| course.search().propose())
-        .take(most)
-        .collect();
+    let batch: Vec<Candidate> = std::iter::from_fn(|| course.search().ask()).take(most).collect();
     if batch.is_empty() {
         return Ok(Some(StopReason::Stalled { iterations: 0 }));
     }
@@ -171,7 +168,7 @@ fn step(problem: &Problem, course: &mut Course, most: usize) -> Result<Option<St
             .filter(|c| c.is_finite());
         course
             .search()
-            .learn(candidate, cost.unwrap_or(FAILED_COST))
+            .tell(candidate, cost.unwrap_or(FAILED_COST))
             .map_err(|error| Failure::Usage(error.to_string()))?;
         course.rows.push(Row {
             candidate: candidate.id,

@@ -4,6 +4,7 @@ use super::problem::{Keep, Problem};
 use super::state::{Course, State};
 use crate::exit::Failure;
 use crate::{disk, drawing};
+use optim::StopReason;
 use quad_plot::figure::Legends;
 use quad_plot::style::{GREY, Look, Marker};
 use quad_plot::{Figure, Panel, series_style};
@@ -12,7 +13,6 @@ use sifre::black_box::CsvBox;
 use sifre::{BlackBox, BlackBoxError, Recording};
 use std::path::Path;
 use wpt_optim::Outcome;
-use wpt_optim::optimisers::StopReason;
 
 /// What was found.
 pub(super) struct Summary {

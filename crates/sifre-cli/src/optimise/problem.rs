@@ -4,10 +4,11 @@ use crate::disk::{Beside, Remembering};
 use crate::exit::Failure;
 use crate::varied::{Setting, Template};
 use crate::{interrupt, model};
+use optim::{Space, Variable};
 use quad_dynamics::Level;
 use scenario::{AgentKind, Built, End, OptimiseFile, Scenario};
 use sifre::black_box::MemoryBox;
-use sifre::{Recording, StepSize, Variable};
+use sifre::{Recording, StepSize};
 use std::collections::BTreeMap;
 use std::path::Path;
 use toml::Value;
@@ -72,14 +73,8 @@ impl Problem {
             pair,
             step,
         };
-        let keys = problem.file.variables.iter().map(|v| &v.key);
-        for (k, key) in keys.enumerate() {
-            if problem.file.variables[..k].iter().any(|v| v.key == *key) {
-                return Err(refused(key, "it is listed twice"));
-            }
-        }
-        // Bounds and starts are the optimisers' to check; a key that isn't there shows when the start is built.
-        let space = wpt_optim::optimisers::Space::new(problem.variables.clone());
+        // Names, bounds and starts are the optimisers' to check; a key that doesn't exist shows when the start is built.
+        let space = Space::new(problem.variables.clone());
         space
             .and_then(|space| space.admit(&problem.start))
             .map_err(|error| Failure::Usage(format!("optimise.variables: {error}")))?;

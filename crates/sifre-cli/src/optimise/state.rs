@@ -5,14 +5,14 @@
 use super::problem::Problem;
 use crate::disk;
 use crate::exit::Failure;
+use optim::{
+    Annealing, AnnealingSettings, Evolution, EvolutionSettings, LineSearch, LineSearchSettings, NelderMead,
+    Optimiser, SetupError, SimplexSettings, StopReason,
+};
 use quad_dynamics::Level;
 use scenario::Algorithm;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use wpt_optim::optimisers::{
-    Annealing, AnnealingSettings, Evolution, EvolutionSettings, LineSearch, LineSearchSettings, NelderMead,
-    Search, SetupError, SimplexSettings, StopReason,
-};
 
 /// Everything that is known.
 #[derive(Debug, Serialize, Deserialize)]
@@ -117,7 +117,7 @@ fn fingerprint(problem: &Problem) -> String {
 
 impl Course {
     /// The search.
-    pub(super) fn search(&mut self) -> &mut dyn Search {
+    pub(super) fn search(&mut self) -> &mut dyn Optimiser {
         match &mut self.search {
             AnySearch::NelderMead(search) => search,
             AnySearch::LineSearch(search) => search,

@@ -1,6 +1,6 @@
 //! `sifre select-level`: which level of resolution is enough for what is asked.
 //!
-//! The scenario is flown at all five levels, in every case; [`wpt_optim::selection`] compares the numbers with level 5's. The price of
+//! The scenario is flown at all five levels, in every case; [`study::selection`] compares the numbers with level 5's. The price of
 //! a level is its computing time per simulated second, the least of some repeats, the mean over the cases.
 
 mod output;
@@ -14,7 +14,7 @@ use crate::{drawing, interrupt, measure, model, report};
 use quad_dynamics::Level;
 use scenario::{End, Scenario};
 use std::path::PathBuf;
-use wpt_optim::selection::{Answer, Selection, SelectionError, Tolerance, select};
+use study::selection::{Answer, Selection, SelectionError, Tolerance, select};
 
 /// How it is used, as `--help` shows it.
 const EXAMPLE: &str = "\

@@ -3,7 +3,7 @@
 //! The vehicle that flies is moved within its standard errors; its controller and its estimator believe in the nominal one
 //! (or in the one that the scenario says), and the scenario's seed stays, so that nothing but the vehicle differs. Monte Carlo: draw n
 //! takes its normal numbers from stream n of a ChaCha8 generator, quadrotor by quadrotor, so neither threads nor the number of draws
-//! change a draw. First order: central differences, two flights per number ([`quad_dynamics::sensitivity`]).
+//! change a draw. First order: central differences, two flights per number ([`study::sensitivity`]).
 
 mod output;
 mod statistics;
@@ -15,9 +15,9 @@ use crate::sweep::{progress_bar, threads};
 use crate::varied::{Setting, Template, setting};
 use crate::{interrupt, report};
 use indicatif::ProgressBar;
+use quad_dynamics::UncertainVehicle;
 use quad_dynamics::vehicle::VehicleFile;
 use quad_dynamics::vehicle::uncertain::UncertainNumber;
-use quad_dynamics::{UncertainVehicle, sensitivity};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -25,6 +25,7 @@ use rayon::prelude::*;
 use scenario::{End, Files, Scenario};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use study::sensitivity;
 
 /// How it is used, as `--help` shows it.
 const EXAMPLE: &str = "\

@@ -7,8 +7,8 @@
 
 use super::{Ensemble, Flown, Job, Side};
 use crate::measure::Measured;
-use quad_dynamics::sensitivity::{self, FirstOrder};
 use scenario::End;
+use study::sensitivity::{self, FirstOrder};
 
 /// What is left out below and above the 95 % range.
 const TAIL: f64 = 0.025;

@@ -21,16 +21,16 @@ fn refusal(change: impl FnOnce(&mut Mission, &mut Vec<Decision>, &mut Weights)) 
 #[test]
 fn exact_errors_of_variables() {
     assert!(refusal(|_, d, _| d.clear()).contains("at least one"));
-    assert!(refusal(|_, d, _| d[1] = d[0]).contains("x_0_m is listed twice"));
+    assert!(refusal(|_, d, _| d[1] = d[0]).contains("variable \"x_0\" is listed twice"));
     for (lower, upper) in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
         let message = refusal(|_, d, _| (d[0].lower, d[0].upper) = (lower, upper));
         assert!(
-            message.contains("x_0_m must lie between two finite bounds"),
+            message.contains("variable \"x_0\": bounds must be finite"),
             "{message}"
         );
     }
-    assert!(refusal(|_, d, _| d[1].start = 9.0).contains("x_f_m can't start at 9"));
-    assert!(refusal(|_, d, _| d[1].start = f64::NAN).contains("can't start at NaN"));
+    assert!(refusal(|_, d, _| d[1].start = 9.0).contains("variable \"x_f\": the start must lie within"));
+    assert!(refusal(|_, d, _| d[1].start = f64::NAN).contains("got NaN"));
 }
 
 #[test]

@@ -1,10 +1,9 @@
 //! Gradients by dual numbers through the whole flight.
 
 use crate::nominal;
+use optim::{CostAndGradient, Limits, NelderMead, QuasiNewton, minimise};
 use quad_dynamics::Level;
-use std::ops::ControlFlow;
 use wpt_optim::Choice;
-use wpt_optim::optimisers::{CostAndGradient, Limits, NelderMead, QuasiNewton, run};
 
 #[test]
 fn agree_gradient_with_central_differences() {
@@ -37,10 +36,7 @@ fn agree_quasi_newton_with_the_simplex() {
     let problem = nominal(Choice::Two, 10.0, Level::Three);
     let mut simplex = NelderMead::new(problem.variables(), &problem.start(), Default::default()).unwrap();
     let cost = |x: &[f64]| problem.evaluate(x).unwrap().cost;
-    let by_simplex = run(&mut simplex, cost, Limits::evaluations(300), &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .unwrap();
+    let by_simplex = minimise(&mut simplex, cost, Limits::evaluations(300)).unwrap();
     let mut newton = QuasiNewton::new(problem.variables(), &problem.start(), Default::default()).unwrap();
     let slope = |x: &[f64]| {
         let found = problem.gradient(x).unwrap();
@@ -49,10 +45,7 @@ fn agree_quasi_newton_with_the_simplex() {
             gradient: found.gradient,
         }
     };
-    let by_newton = run(&mut newton, slope, Limits::evaluations(300), &mut |_| {
-        ControlFlow::Continue(())
-    })
-    .unwrap();
+    let by_newton = minimise(&mut newton, slope, Limits::evaluations(300)).unwrap();
     // The simplex ends within a millionth of its cost.
     assert!((by_newton.best.cost - by_simplex.best.cost).abs() < 1e-5);
     assert!(by_newton.evaluations < by_simplex.evaluations);

@@ -1,6 +1,6 @@
 //! Figure C.1: coverage of the flight volume by cameras on the walls, before and after optimisation.
 
-use super::rig::{Settings, variables};
+use super::rig::Settings;
 use super::rig_picture::picture;
 use crate::claim::Claim;
 use crate::data::DataTable;
@@ -8,9 +8,8 @@ use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
 use crate::plot::{Figure, Panel, series_style};
-use std::ops::ControlFlow;
-use sysid::coverage::{Camera, Coverage, Task, WallRig};
-use wpt_optim::optimisers::{Evolution, EvolutionSettings, Limits, Report, run};
+use coverage::{Camera, Coverage, Task, WallRig};
+use optim::{Evolution, EvolutionSettings, Limits, Report, minimise};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -71,19 +70,9 @@ fn optimised(task: &Task, rig: &WallRig, settings: &Settings) -> Result<Report, 
         seed: settings.seed,
         ..EvolutionSettings::default()
     };
-    let mut search = Evolution::new(variables(rig), evolution)?;
-    // A rig that can't be counted fails; mounts on the walls always can.
-    let cost = |x: &[f64]| {
-        let coverage = task.coverage(&rig.cameras(x));
-        coverage.map_or(f64::INFINITY, |coverage| coverage.cost())
-    };
+    let mut search = Evolution::new(rig.variables(), evolution)?;
     let limits = Limits::evaluations(settings.evaluations);
-    Ok(run(
-        &mut search,
-        cost,
-        limits,
-        &mut |_| ControlFlow::Continue(()),
-    )?)
+    Ok(minimise(&mut search, |x: &[f64]| rig.cost(task, x), limits)?)
 }
 
 /// Part of the volume that at least n cameras see, n from 0 to the number of cameras.

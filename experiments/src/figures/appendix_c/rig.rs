@@ -1,9 +1,8 @@
 //! A laboratory with motion-capture cameras on its walls.
 
+use coverage::{CoverageError, Lens, Room, Task, Volume, WallRig};
 use nalgebra::Vector3;
 use serde::Serialize;
-use sifre::Variable;
-use sysid::coverage::{CoverageError, Lens, Room, Task, Volume, WallRig};
 
 /// The laboratory, the volume flown in, the cameras and the search, as written to the resolved scenario. Room, volume and
 /// number of cameras are assumptions; the lens is that of table B.1.
@@ -63,16 +62,3 @@ impl Settings {
 const CAMERAS: usize = 8;
 /// Limits of height, m.
 const HEIGHT_M: [f64; 2] = [1.0, 3.8];
-
-/// What the optimiser decides on.
-pub(super) fn variables(rig: &WallRig) -> Vec<Variable> {
-    let variables = rig.variables().into_iter();
-    variables
-        .map(|v| Variable {
-            name: v.name,
-            unit: v.unit.to_owned(),
-            lower: *v.bounds.start(),
-            upper: *v.bounds.end(),
-        })
-        .collect()
-}

@@ -4,8 +4,8 @@ use super::rig::Settings;
 use crate::plot::space::View;
 use crate::plot::style::{INK, Look, Marker};
 use crate::plot::{Space, series_style};
+use coverage::{Camera, Coverage, Task};
 use nalgebra::Vector3;
-use sysid::coverage::{Camera, Coverage, Task};
 
 /// North, west, up: right-handed, as the eye expects of a box.
 fn pictured(p: &Vector3<f64>) -> [f64; 3] {

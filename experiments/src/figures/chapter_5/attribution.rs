@@ -8,7 +8,8 @@ use crate::flight::{Law, Scenario};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::style::Marker;
 use crate::plot::{Figure, Panel, series_style};
-use quad_dynamics::{Attribution, Feature, Level, Parts, PhenomenonSet, Vehicle};
+use quad_dynamics::{Feature, Level, PhenomenonSet, Vehicle};
+use study::attribution::{Attribution, Parts, Share};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -105,12 +106,12 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
 struct Run(String);
 
 fn panel(lower: Level, upper: Level, found: &Attribution) -> Panel {
-    let name = |s: &quad_dynamics::Share| match s.part {
+    let name = |s: &Share| match s.part {
         Feature::Phenomenon(phenomenon) => phenomenon.name().replace('-', " "),
         part => part.to_string(),
     };
     let names: Vec<String> = found.shares.iter().map(name).collect();
-    let points = |offset: f64, value: fn(&quad_dynamics::Share) -> f64| {
+    let points = |offset: f64, value: fn(&Share) -> f64| {
         let places = found.shares.iter().enumerate();
         let points: Vec<_> = places.map(|(i, s)| (i as f64 + 1.0 + offset, value(s))).collect();
         points

@@ -5,12 +5,12 @@
 
 use super::optimisations::{Case, Effort, Found, Once, searched};
 use crate::item::ItemError;
+use optim::{Annealing, AnnealingSettings, NelderMead, Report, SimplexSettings};
 use quad_dynamics::Level;
 use serde::Serialize;
 use std::sync::OnceLock;
 use std::thread;
 use wpt_optim::Problem;
-use wpt_optim::optimisers::{Annealing, AnnealingSettings, NelderMead, Report, SimplexSettings};
 
 /// The problems whose global minimum is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,8 +11,8 @@ use crate::plot::style::{BLUE, GREY, INK, Look, Marker, VERMILION};
 use crate::plot::{Figure, Panel, series_style};
 use kuva::plot::ContourPlot;
 use kuva::render::plots::Plot;
-use wpt_optim::optimisers::Report;
-use wpt_optim::optimisers::test_functions::{HIMMELBLAU_MINIMA, himmelblau};
+use optim::Report;
+use optim::test_functions::{HIMMELBLAU_MINIMA, himmelblau};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {

@@ -2,12 +2,12 @@
 
 use super::optimisations::{Effort, QUICK_STEP, stepped};
 use crate::item::ItemError;
+use optim::multi_fidelity::{LevelCost, MultiFidelityReport, MultiFidelitySettings, multi_fidelity};
+use optim::{Limits, NelderMead, Report, SimplexSettings, minimise};
 use quad_dynamics::Level;
 use rayon::prelude::*;
 use sifre::StepSize;
 use std::ops::ControlFlow;
-use wpt_optim::multi_fidelity::{LevelCost, MultiFidelityReport, MultiFidelitySettings, multi_fidelity};
-use wpt_optim::optimisers::{Limits, NelderMead, Report, SimplexSettings, run};
 use wpt_optim::{Choice, Objective, Problem};
 
 /// A cost is as good as the optimum within this factor.
@@ -64,12 +64,8 @@ impl Pair {
             ..SimplexSettings::default()
         };
         let mut simplex = NelderMead::new(top.variables(), &start, modest)?;
-        let plain = run(
-            &mut simplex,
-            costs[costs.len() - 1],
-            Limits::evaluations(MOST_EVALUATIONS),
-            &mut |_| ControlFlow::Continue(()),
-        )?;
+        let limits = Limits::evaluations(MOST_EVALUATIONS);
+        let plain = minimise(&mut simplex, costs[costs.len() - 1], limits)?;
         Ok(Self { guided, plain })
     }
 

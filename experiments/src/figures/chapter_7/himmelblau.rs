@@ -1,10 +1,8 @@
 //! Searches by simplex on Himmelblau's function.
 
 use crate::item::ItemError;
-use sifre::Variable;
-use std::ops::ControlFlow;
-use wpt_optim::optimisers::test_functions::{HIMMELBLAU_MINIMA, himmelblau};
-use wpt_optim::optimisers::{Limits, NelderMead, Report, Search, SimplexSettings, run};
+use optim::test_functions::{HIMMELBLAU_MINIMA, himmelblau};
+use optim::{Limits, NelderMead, Optimiser, Report, SimplexSettings, Variable, minimise};
 
 /// Half the side of the box searched and drawn.
 pub(super) const HALF: f64 = 6.0;
@@ -26,18 +24,16 @@ fn search(start: [f64; 2]) -> Result<NelderMead, ItemError> {
 /// A search to its end.
 pub(super) fn solve(start: [f64; 2]) -> Result<Report, ItemError> {
     let limits = Limits::evaluations(1000);
-    Ok(run(&mut search(start)?, himmelblau, limits, &mut |_| {
-        ControlFlow::Continue(())
-    })?)
+    Ok(minimise(&mut search(start)?, himmelblau, limits)?)
 }
 
 /// Every simplex of a search, closed.
 pub(super) fn simplices(start: [f64; 2]) -> Result<Vec<Triangle>, ItemError> {
     let mut search = search(start)?;
     let (mut triangles, mut drawn) = (Vec::new(), 0);
-    while let Some(candidate) = search.propose() {
+    while let Some(candidate) = search.ask() {
         let cost = himmelblau(&candidate.values);
-        search.learn(&candidate, cost)?;
+        search.tell(&candidate, cost)?;
         let simplex = search.rule();
         if simplex.iterations() > drawn {
             drawn = simplex.iterations();

@@ -5,15 +5,15 @@
 
 use super::annealed;
 use crate::item::ItemError;
+use optim::{
+    Limits, LineSearch, LineSearchSettings, NelderMead, Optimiser, Report, RunError, SimplexSettings,
+    minimise,
+};
 use quad_dynamics::Level;
 use serde::Serialize;
 use sifre::StepSize;
-use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::thread;
-use wpt_optim::optimisers::{
-    Limits, LineSearch, LineSearchSettings, NelderMead, Report, RunError, Search, SimplexSettings, run,
-};
 use wpt_optim::{Choice, Decision, Objective, Problem};
 
 /// Made at the first call, for each effort; an error as its words, because errors can't be copied.
@@ -291,10 +291,11 @@ pub(super) fn stepped(problem: &Problem, step: StepSize) -> Result<Problem, Item
 }
 
 /// Runs a search on a problem's cost.
-pub(super) fn searched(search: &mut impl Search, problem: &Problem, most: u64) -> Result<Report, RunError> {
+pub(super) fn searched(
+    search: &mut impl Optimiser,
+    problem: &Problem,
+    most: u64,
+) -> Result<Report, RunError> {
     let objective = Objective::new(problem);
-    let cost = |x: &[f64]| objective.cost(x);
-    run(search, cost, Limits::evaluations(most), &mut |_| {
-        ControlFlow::Continue(())
-    })
+    minimise(search, |x: &[f64]| objective.cost(x), Limits::evaluations(most))
 }

@@ -6,7 +6,7 @@ use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::{DisplayTable, Drawing};
 use crate::item::{Context, ItemError};
-use wpt_optim::optimisers::StopReason;
+use optim::StopReason;
 use wpt_optim::{Decision, Problem};
 
 /// The claim of every such table.

@@ -1,19 +1,17 @@
 //! The search for one loop's gains: a box of logarithms, random starts, Nelder-Mead.
 
 use super::trial::Bench;
-use super::{LoopReport, StartReport, Termination, TunedLoop, TuningOptions};
+use super::{LoopReport, StartReport, TunedLoop, TuningError, TuningOptions};
 use crate::pid::PidSettings;
-use argmin::core::{CostFunction, Error, Executor, State, TerminationReason};
-use argmin::solver::neldermead::NelderMead;
+use optim::{Limits, NelderMead, Report, SimplexSettings, Variable, minimise};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
-use std::cell::RefCell;
 
 /// Half-widths of the box in the logarithms of `k_p`, `k_i`, `k_d` over the placed ones: ln 10, ln 30, ln 10.
-const BOX: [f64; 3] = [
-    std::f64::consts::LN_10,
-    3.401_197_381_662_155,
-    std::f64::consts::LN_10,
+const BOX: [(&str, f64); 3] = [
+    ("ln k_p", std::f64::consts::LN_10),
+    ("ln k_i", 3.401_197_381_662_155),
+    ("ln k_d", std::f64::consts::LN_10),
 ];
 
 /// Half-width of the region that starts are drawn from, as a logarithm: a factor 4.
@@ -22,7 +20,7 @@ const START_REGION: f64 = 2.0 * std::f64::consts::LN_2;
 /// Edge of the first simplex, as a logarithm.
 const EDGE: f64 = 0.4;
 
-/// Spread of the costs of a simplex, as standard deviation, at which the search has converged.
+/// Spread of the costs of a simplex at which the search has converged, however far apart its vertices are.
 const CONVERGED: f64 = 1e-6;
 
 /// The cost as a function of the logarithms of one loop's gains.
@@ -30,33 +28,41 @@ struct Problem<'a> {
     bench: &'a Bench,
     tuned: TunedLoop,
     settings: PidSettings,
-    /// Costs of all flights so far.
-    costs: RefCell<Vec<f64>>,
 }
 
 impl Problem<'_> {
-    /// The settings with this loop's gains multiplied, and the squared distance from the box.
-    fn settings(&self, logarithms: &[f64]) -> (PidSettings, f64) {
-        let inside: [f64; 3] = std::array::from_fn(|i| logarithms[i].clamp(-BOX[i], BOX[i]));
-        let outside = logarithms.iter().zip(inside).map(|(x, y)| (x - y).powi(2)).sum();
+    /// The settings with this loop's gains multiplied.
+    fn settings(&self, logarithms: &[f64]) -> PidSettings {
         let mut settings = self.settings;
         let gains = self.tuned.gains_mut(&mut settings);
-        gains.proportional *= inside[0].exp();
-        gains.integral *= inside[1].exp();
-        gains.derivative *= inside[2].exp();
-        (settings, outside)
+        gains.proportional *= logarithms[0].exp();
+        gains.integral *= logarithms[1].exp();
+        gains.derivative *= logarithms[2].exp();
+        settings
     }
-}
 
-impl CostFunction for &Problem<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, logarithms: &Vec<f64>) -> Result<f64, Error> {
-        let (settings, outside) = self.settings(logarithms);
-        let cost = self.bench.cost(&settings) + outside;
-        self.costs.borrow_mut().push(cost);
-        Ok(cost)
+    /// Nelder-Mead from one start.
+    fn descend(&self, start: &[f64], flights: u64) -> Result<Report, TuningError> {
+        let variables = BOX.map(|(name, half)| Variable {
+            name: name.to_owned(),
+            unit: "1".to_owned(),
+            lower: -half,
+            upper: half,
+        });
+        let mut simplex = vec![start.to_vec()];
+        for (i, (_, half)) in BOX.into_iter().enumerate() {
+            let mut corner = start.to_vec();
+            corner[i] += if corner[i] + EDGE <= half { EDGE } else { -EDGE };
+            simplex.push(corner);
+        }
+        let settings = SimplexSettings {
+            spread: f64::INFINITY,
+            cost_spread: CONVERGED,
+            ..SimplexSettings::default()
+        };
+        let mut search = NelderMead::from_simplex(variables.to_vec(), simplex, settings)?;
+        let cost = |logarithms: &[f64]| self.bench.cost(&self.settings(logarithms));
+        Ok(minimise(&mut search, cost, Limits::evaluations(flights))?)
     }
 }
 
@@ -73,16 +79,15 @@ pub(super) fn search(
     tuned: TunedLoop,
     settings: &PidSettings,
     generator: &mut ChaCha8Rng,
-) -> LoopReport {
+) -> Result<LoopReport, TuningError> {
     let problem = Problem {
         bench,
         tuned,
         settings: *settings,
-        costs: RefCell::new(Vec::new()),
     };
-    let mut best = (bench.cost(settings), vec![0.0; BOX.len()]);
-    let cost_before = best.0;
-    let mut starts = Vec::with_capacity(options.starts);
+    let cost_before = bench.cost(settings);
+    let mut best = (cost_before, vec![0.0; BOX.len()]);
+    let (mut starts, mut history) = (Vec::with_capacity(options.starts + 1), Vec::new());
     for number in 0..=options.starts {
         // Random starts, and at last the best end with a fresh simplex, lest an early collapse be the end.
         let start = if number < options.starts {
@@ -90,58 +95,24 @@ pub(super) fn search(
         } else {
             best.1.clone()
         };
-        let before = problem.costs.borrow().len();
-        let (cost, logarithms, termination) = descend(&problem, start, options.iterations);
-        let evaluations = problem.costs.borrow().len() - before;
+        let report = problem.descend(&start, options.flights)?;
+        history.extend(report.history.iter().map(|cost| cost.min(best.0)));
         starts.push(StartReport {
-            cost,
-            evaluations,
-            termination,
+            cost: report.best.cost,
+            evaluations: report.evaluations,
+            stop: report.stop,
         });
-        if cost < best.0 {
-            best = (cost, logarithms);
+        if report.best.cost < best.0 {
+            best = (report.best.cost, report.best.candidate.values);
         }
     }
-    let (mut found, _) = problem.settings(&best.1);
-    let mut least = cost_before;
-    let history = problem.costs.into_inner().into_iter().map(|cost| {
-        least = least.min(cost);
-        least
-    });
-    LoopReport {
+    let mut found = problem.settings(&best.1);
+    Ok(LoopReport {
         tuned,
         gains: *tuned.gains_mut(&mut found),
         cost: best.0,
         cost_before,
         starts,
-        history: history.collect(),
-    }
-}
-
-/// Nelder-Mead from one start: best cost, where, and why it stopped.
-fn descend(problem: &Problem<'_>, start: Vec<f64>, iterations: u64) -> (f64, Vec<f64>, Termination) {
-    let mut simplex = vec![start.clone()];
-    for i in 0..start.len() {
-        let mut corner = start.clone();
-        corner[i] += EDGE;
-        simplex.push(corner);
-    }
-    let fallback = (f64::INFINITY, start, Termination::OutOfIterations);
-    // The tolerance is positive and the cost always a number, so neither step fails.
-    let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(CONVERGED) else {
-        return fallback;
-    };
-    let run = Executor::new(problem, solver)
-        .configure(|state| state.max_iters(iterations))
-        .ctrlc(false)
-        .timer(false)
-        .run();
-    let Ok(result) = run else { return fallback };
-    let state = result.state();
-    let termination = match state.get_termination_reason() {
-        Some(TerminationReason::SolverConverged) => Termination::Converged,
-        _ => Termination::OutOfIterations,
-    };
-    let best = state.get_best_param().cloned().unwrap_or(fallback.1);
-    (state.get_best_cost(), best, termination)
+        history,
+    })
 }

@@ -12,7 +12,7 @@ fn short(seed: u64) -> TuningOptions {
     TuningOptions {
         step_s: 0.01,
         starts: 2,
-        iterations: 4,
+        flights: 8,
         seed,
         ..TuningOptions::default()
     }
@@ -40,7 +40,11 @@ fn prop_reports_add_up() {
     for report in &tuned.loops {
         assert_eq!(
             report.history.len(),
-            report.starts.iter().map(|s| s.evaluations).sum::<usize>()
+            report
+                .starts
+                .iter()
+                .map(|s| s.evaluations as usize)
+                .sum::<usize>()
         );
         assert!(report.history.windows(2).all(|pair| pair[1] <= pair[0]));
         assert_eq!(report.history.last(), Some(&report.cost));
@@ -49,7 +53,7 @@ fn prop_reports_add_up() {
             report
                 .starts
                 .iter()
-                .all(|s| s.termination == Termination::OutOfIterations)
+                .all(|s| s.stop == StopReason::Budget { evaluations: 8 })
         );
         let mut settings = tuned.settings;
         assert_eq!(*report.tuned.gains_mut(&mut settings), report.gains);
@@ -97,9 +101,9 @@ fn exact_bad_options_are_named() {
             },
         ),
         (
-            "`iterations` = 0",
+            "`flights` = 0",
             TuningOptions {
-                iterations: 0,
+                flights: 0,
                 ..good.clone()
             },
         ),
