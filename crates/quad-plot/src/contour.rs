@@ -3,6 +3,8 @@
 //! A level's region holds the nodes with values of at least that level; its boundary crosses the edges of the grid where linear
 //! interpolation meets the level. Around the grid, and wherever a value is not finite, lies the outside, which belongs to no region; so every
 //! boundary is closed. Where two opposite corners of a cell are inside and two are not, the mean of the four decides whether they join.
+//! On a coarse grid a boundary has corners that the field has not: cutting them repeatedly (Chaikin, Comput. Graph. Image Process. 3, 1974)
+//! leaves a smooth curve that stays within its polygon, and straight lines as they are.
 
 use super::svg::{Point, at};
 
@@ -15,6 +17,8 @@ pub(super) struct Grid {
     pub(super) y: Vec<f64>,
     /// Values row by row.
     pub(super) values: Vec<f64>,
+    /// How often corners of boundaries are cut.
+    pub(super) cuts: usize,
 }
 
 /// A point of a boundary.
@@ -23,6 +27,8 @@ struct Crossing {
     point: Point,
     /// Whether a value crosses the level here; otherwise the region meets the outside.
     on_level: bool,
+    /// Whether the boundary keeps its corner here: where it meets the outside.
+    kept: bool,
 }
 
 /// No edge follows.
@@ -76,7 +82,7 @@ impl Grid {
                 edge = std::mem::replace(&mut next[edge], NONE);
             }
             if !boundary.is_empty() {
-                boundaries.push(boundary);
+                boundaries.push(smoothed(boundary, self.cuts));
             }
         }
         boundaries
@@ -117,6 +123,7 @@ impl Grid {
         Crossing {
             point: at(p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)),
             on_level: share.is_some(),
+            kept: share.is_none(),
         }
     }
 }
@@ -133,6 +140,36 @@ fn cell(corners: [f64; 4], level: Option<f64>) -> impl Iterator<Item = (usize, u
         let mut others = (1..4).map(|turn| (if joined { from + 4 - turn } else { from + turn }) % 4);
         others.find(|k| leaves(*k)).map(|to| (from, to))
     })
+}
+
+/// The boundary with its corners cut, except beside the outside.
+fn smoothed(boundary: Vec<Crossing>, cuts: usize) -> Vec<Crossing> {
+    let around = |b: &[Crossing], i: usize| [b[(i + b.len() - 1) % b.len()], b[i], b[(i + 1) % b.len()]];
+    let beside_outside = |i| around(&boundary, i).iter().any(|c| !c.on_level);
+    let kept = |i: usize| Crossing {
+        kept: beside_outside(i),
+        ..boundary[i]
+    };
+    let mut smooth: Vec<Crossing> = (0..boundary.len()).map(kept).collect();
+    for _ in 0..cuts {
+        let cut = |i: usize| {
+            let [before, corner, after] = around(&smooth, i);
+            let towards = |other: Crossing| Crossing {
+                point: at(
+                    0.75 * corner.point.x + 0.25 * other.point.x,
+                    0.75 * corner.point.y + 0.25 * other.point.y,
+                ),
+                ..corner
+            };
+            if corner.kept {
+                vec![corner]
+            } else {
+                vec![towards(before), towards(after)]
+            }
+        };
+        smooth = (0..smooth.len()).flat_map(cut).collect();
+    }
+    smooth
 }
 
 /// The pieces of a boundary that lie on the level, not on the edge of the field.
@@ -165,6 +202,7 @@ mod tests {
             values: values.map(|(x, y)| field(x, y)).collect(),
             x: axis.clone(),
             y: axis,
+            cuts: 0,
         }
     }
 
@@ -199,6 +237,33 @@ mod tests {
             // Linear interpolation along an edge of length 1 errs by at most 1/8 of the curvature, 1/r.
             assert!(((p.x - 20.0).hypot(p.y - 20.0) - 10.0).abs() < 0.125 / 9.0);
         }
+    }
+
+    #[test]
+    fn exact_cut_corners_make_a_coarse_circle_smooth_and_leave_planes() {
+        // Seven nodes across: the polygon of the contour has corners of up to 45°; each cut halves them.
+        let mut coarse = grid(9, |x, y| -(x - 4.0).hypot(y - 4.0));
+        let sharpest = |grid: &Grid| {
+            let line = grid.lines(-3.0).concat();
+            let turn = |p: &[Point]| {
+                let (a, b) = (
+                    (p[1].y - p[0].y).atan2(p[1].x - p[0].x),
+                    (p[2].y - p[1].y).atan2(p[2].x - p[1].x),
+                );
+                let turn = (a - b).abs();
+                turn.min(std::f64::consts::TAU - turn)
+            };
+            line.windows(3).map(turn).fold(0.0, f64::max)
+        };
+        let raw = sharpest(&coarse);
+        coarse.cuts = 3;
+        assert!(sharpest(&coarse) < 0.3 * raw, "{} of {raw}", sharpest(&coarse));
+        let mut plane = grid(5, |x, y| x + y);
+        plane.cuts = 3;
+        let line = plane.lines(3.5).concat();
+        assert!(line.iter().all(|p| (p.x + p.y - 3.5).abs() < 1e-12));
+        // The ends stay on the edge of the field.
+        assert!(line.iter().any(|p| p.x == 0.0) && line.iter().any(|p| p.y == 0.0));
     }
 
     #[test]

@@ -6,7 +6,6 @@ use super::contour::Grid;
 use super::frame::{Frame, thinned};
 use super::layer::{BandPoint, Bar, Cells, Contours, ErrorBar, Layer};
 use super::marker::draw_marker;
-use super::refine::refined;
 use super::style::Look;
 use super::svg::{Point, Svg, at};
 
@@ -20,10 +19,10 @@ const CAP: f64 = 2.5;
 const ERROR_BAR: f64 = 1.0;
 /// Markers nearer to an earlier one than this, px, are not seen.
 const APART: f64 = 0.25;
-/// Cells of a grid longer than this, px, are refined for smooth contours.
-const SMOOTH: f64 = 2.5;
-/// Most pieces that an interval of a grid is refined into.
-const MOST_PIECES: f64 = 12.0;
+/// Cells of a grid longer than this, px, show as corners of contours, which are cut.
+const COARSE: f64 = 2.5;
+/// How often these corners are cut: to an eighth of their angle.
+const CUTS: usize = 3;
 
 /// Draws a layer.
 pub(super) fn draw(svg: &mut Svg, layer: &Layer, frame: &Frame<'_>) {
@@ -102,7 +101,7 @@ fn draw_bars(svg: &mut Svg, width: f64, bars: &[Bar], frame: &Frame<'_>) {
 }
 
 fn draw_contours(svg: &mut Svg, contours: &Contours, frame: &Frame<'_>) {
-    let grid = fine(&placed(contours, frame));
+    let grid = placed(contours, frame);
     let rect = frame.rect();
     let starts = std::iter::once(None).chain(contours.levels.iter().copied().map(Some));
     // From the lowest band to the highest: each covers what is above it, too, so no seam shows between two.
@@ -133,27 +132,34 @@ fn placed(contours: &Contours, frame: &Frame<'_>) -> Grid {
     };
     let columns = 0..contours.x.len();
     let rows = 0..contours.y.len();
-    let across = |x: &f64| frame.across(frame.x.place_or_end(*x));
-    let up = |y: &f64| frame.up(frame.y.place_or_end(*y));
+    let across: Vec<f64> = contours
+        .x
+        .iter()
+        .map(|x| frame.across(frame.x.place_or_end(*x)))
+        .collect();
+    let up: Vec<f64> = contours
+        .y
+        .iter()
+        .map(|y| frame.up(frame.y.place_or_end(*y)))
+        .collect();
     Grid {
         values: rows
             .flat_map(|j| columns.clone().map(move |i| (i, j)))
             .map(|(i, j)| value(i, j))
             .collect(),
-        x: contours.x.iter().map(across).collect(),
-        y: contours.y.iter().map(up).collect(),
+        cuts: if is_coarse(&across) || is_coarse(&up) {
+            CUTS
+        } else {
+            0
+        },
+        x: across,
+        y: up,
     }
 }
 
-/// The grid with cells so small that their contours look smooth.
-fn fine(grid: &Grid) -> Grid {
-    let longest = |nodes: &[f64]| {
-        let lengths = nodes.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-        lengths.fold(0.0, f64::max)
-    };
-    let length = f64::max(longest(&grid.x), longest(&grid.y));
-    let pieces = (length / SMOOTH).ceil().clamp(1.0, MOST_PIECES);
-    refined(grid, pieces as usize)
+/// Whether nodes lie so far apart that straight lines between them show.
+fn is_coarse(nodes: &[f64]) -> bool {
+    nodes.windows(2).any(|pair| (pair[1] - pair[0]).abs() > COARSE)
 }
 
 fn draw_cells(svg: &mut Svg, cells: &Cells, frame: &Frame<'_>) {

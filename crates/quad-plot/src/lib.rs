@@ -36,7 +36,6 @@ pub mod legend;
 mod marker;
 pub mod panel;
 pub mod raster;
-mod refine;
 mod scene;
 pub mod sketch;
 pub mod space;

@@ -16,7 +16,7 @@ pub(super) struct LogTicks {
 /// Fewest labels that say what an axis' scale is.
 const FEWEST: usize = 3;
 /// How many more labels than aimed at an axis may have.
-const CROWDED: f64 = 1.7;
+const CROWDED: f64 = 2.0;
 /// Ends of the range count as inside to this share of a value.
 const SLACK: f64 = 1e-9;
 
