@@ -7,7 +7,7 @@ use super::frame::{Area, Frame};
 use super::layer::{Note, Rule};
 use super::panel::Panel;
 use super::style::{INK, Look, reference_style};
-use super::svg::{Anchor, Point, Svg, TextLook, at};
+use super::svg::{Anchor, Svg, TextLook, at};
 
 /// Font size of axis labels and captions, px.
 pub(super) const LABEL: f64 = 12.0;
@@ -79,6 +79,15 @@ impl Placed<'_> {
             .filter_map(|(k, lines)| label(k, lines))
             .filter(|(f, _)| (0.0..=1.0).contains(f))
             .collect()
+    }
+
+    /// Places of the ticks of the horizontal axis: all numbers, or the categories.
+    fn x_ticks(&self, width: f64) -> Vec<f64> {
+        if self.panel.x.categories.is_empty() {
+            places(&self.x, self.x.ticks())
+        } else {
+            self.x_labels(width).into_iter().map(|(f, _)| f).collect()
+        }
     }
 
     /// Tick labels of the vertical axis with their places.
@@ -184,62 +193,58 @@ fn draw_note(svg: &mut Svg, note: &Note, frame: &Frame<'_>) {
     svg.text(at(x, y), &note.text, look);
 }
 
-/// A box around the data, with ticks outside.
+/// A box around the data, with ticks outside and their labels.
 fn draw_axes(svg: &mut Svg, placed: &Placed<'_>, frame: &Frame<'_>) {
-    let Point { x: left, y: top } = frame.area.origin;
-    let (width, height) = frame.area.size;
-    let (right, bottom) = (left + width, top + height);
+    let rect = frame.rect();
+    let corners = [
+        rect.low,
+        at(rect.high.x, rect.low.y),
+        rect.high,
+        at(rect.low.x, rect.high.y),
+    ];
     svg.polyline(
-        &[
-            at(left, top),
-            at(right, top),
-            at(right, bottom),
-            at(left, bottom),
-            at(left, top),
-        ],
+        &[corners[0], corners[1], corners[2], corners[3], corners[0]],
         &EDGE,
     );
-    let mut tick_below = |x: f64, length: f64| svg.polyline(&[at(x, bottom), at(x, bottom + length)], &EDGE);
-    if placed.panel.x.categories.is_empty() {
-        for f in placed.x.ticks().into_iter().filter_map(|t| placed.x.place(t)) {
-            tick_below(frame.across(f), TICK_LENGTH);
+    let mut below = |fractions: Vec<f64>, length: f64| {
+        for x in fractions.into_iter().map(|f| frame.across(f)) {
+            svg.polyline(&[at(x, rect.high.y), at(x, rect.high.y + length)], &EDGE);
         }
-    }
-    for f in placed
-        .x
-        .minor_ticks()
-        .into_iter()
-        .filter_map(|t| placed.x.place(t))
-    {
-        tick_below(frame.across(f), MINOR_TICK_LENGTH);
-    }
-    let mut tick_beside = |y: f64, length: f64| svg.polyline(&[at(left, y), at(left - length, y)], &EDGE);
-    for f in placed.y.ticks().into_iter().filter_map(|t| placed.y.place(t)) {
-        tick_beside(frame.up(f), TICK_LENGTH);
-    }
-    for f in placed
-        .y
-        .minor_ticks()
-        .into_iter()
-        .filter_map(|t| placed.y.place(t))
-    {
-        tick_beside(frame.up(f), MINOR_TICK_LENGTH);
-    }
+    };
+    below(placed.x_ticks(frame.area.size.0), TICK_LENGTH);
+    below(places(&placed.x, placed.x.minor_ticks()), MINOR_TICK_LENGTH);
+    let mut beside = |fractions: Vec<f64>, length: f64| {
+        for y in fractions.into_iter().map(|f| frame.up(f)) {
+            svg.polyline(&[at(rect.low.x, y), at(rect.low.x - length, y)], &EDGE);
+        }
+    };
+    beside(places(&placed.y, placed.y.ticks()), TICK_LENGTH);
+    beside(places(&placed.y, placed.y.minor_ticks()), MINOR_TICK_LENGTH);
+    draw_tick_labels(svg, placed, frame);
+}
+
+/// Positions along an axis.
+fn places(axis: &SettledAxis, values: Vec<f64>) -> Vec<f64> {
+    values.into_iter().filter_map(|value| axis.place(value)).collect()
+}
+
+fn draw_tick_labels(svg: &mut Svg, placed: &Placed<'_>, frame: &Frame<'_>) {
+    let rect = frame.rect();
     let look = |anchor| TextLook {
         size: TICK,
         anchor,
         ..TextLook::default()
     };
     if placed.labelled_x {
-        for (f, lines) in placed.x_labels(width) {
+        for (f, lines) in placed.x_labels(frame.area.size.0) {
             for (line, k) in lines.iter().zip(0..) {
-                let base = bottom + TICK_LENGTH + TICK + 1.0 + LEADING * f64::from(k);
+                let base = rect.high.y + TICK_LENGTH + TICK + 1.0 + LEADING * f64::from(k);
                 svg.text(at(frame.across(f), base), line, look(Anchor::Middle));
             }
         }
     }
-    for (f, label) in placed.y_labels(height) {
-        let base = at(left - TICK_LENGTH - 3.0, frame.up(f) + 0.36 * TICK);
+    for (f, label) in placed.y_labels(frame.area.size.1) {
+        let base = at(rect.low.x - TICK_LENGTH - 3.0, frame.up(f) + 0.36 * TICK);
         svg.text(base, &label, look(Anchor::End));
     }
 }

@@ -151,6 +151,9 @@ fn smoothed(boundary: Vec<Crossing>, cuts: usize) -> Vec<Crossing> {
         ..boundary[i]
     };
     let mut smooth: Vec<Crossing> = (0..boundary.len()).map(kept).collect();
+    if cuts > 0 {
+        smooth = evened(&smooth);
+    }
     for _ in 0..cuts {
         let cut = |i: usize| {
             let [before, corner, after] = around(&smooth, i);
@@ -170,6 +173,22 @@ fn smoothed(boundary: Vec<Crossing>, cuts: usize) -> Vec<Crossing> {
         smooth = (0..smooth.len()).flat_map(cut).collect();
     }
     smooth
+}
+
+/// The boundary without points much nearer to the one before than most: a cut beside a short piece would leave most of the corner.
+fn evened(boundary: &[Crossing]) -> Vec<Crossing> {
+    const SHORT: f64 = 0.5;
+    let apart = |a: &Crossing, b: &Crossing| (a.point.x - b.point.x).hypot(a.point.y - b.point.y);
+    let next = boundary.iter().cycle().skip(1);
+    let lengths = boundary.iter().zip(next).map(|(a, b)| apart(a, b));
+    let least = SHORT * lengths.sum::<f64>() / boundary.len() as f64;
+    let mut even: Vec<Crossing> = Vec::with_capacity(boundary.len());
+    for c in boundary {
+        if c.kept || even.last().is_none_or(|last| apart(last, c) >= least) {
+            even.push(*c);
+        }
+    }
+    even
 }
 
 /// The pieces of a boundary that lie on the level, not on the edge of the field.
@@ -241,8 +260,8 @@ mod tests {
 
     #[test]
     fn exact_cut_corners_make_a_coarse_circle_smooth_and_leave_planes() {
-        // Seven nodes across: the polygon of the contour has corners of up to 45°; each cut halves them.
-        let mut coarse = grid(9, |x, y| -(x - 4.0).hypot(y - 4.0));
+        // Six nodes across, none of them on the contour; each cut halves the corners of its polygon.
+        let mut coarse = grid(9, |x, y| -(x - 4.1).hypot(y - 3.8));
         let sharpest = |grid: &Grid| {
             let line = grid.lines(-3.0).concat();
             let turn = |p: &[Point]| {

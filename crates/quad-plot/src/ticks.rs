@@ -38,7 +38,7 @@ impl LogTicks {
             multiples(min, max, 1, &[1.0, 3.0]),
             multiples(min, max, 1, &[1.0, 2.0, 5.0]),
         ];
-        let most = (CROWDED * target).max(FEWEST as f64 + 1.0);
+        let most = (CROWDED * target).max(FEWEST as f64) + 1.0;
         let fits = |ticks: &Vec<f64>| ticks.len() >= FEWEST && ticks.len() as f64 <= most;
         let labelled = candidates.into_iter().find(fits);
         let labelled = labelled.unwrap_or_else(|| even_steps(min, max, target));
@@ -63,7 +63,10 @@ fn even_steps(min: f64, max: f64, target: f64) -> Vec<f64> {
         (min / step - SLACK).ceil() as i64,
         (max / step + SLACK).floor() as i64,
     );
-    (first..=last).map(|i| i as f64 * step).collect()
+    (first..=last)
+        .map(|i| i as f64 * step)
+        .filter(|v| *v > 0.0)
+        .collect()
 }
 
 /// The label of a tick of an axis from `min` to `max`: a plain number where the whole axis lies between a hundredth and a thousand, a power of ten
