@@ -1,8 +1,7 @@
 //! What the property tests across the crates draw from: random vehicles, states and inputs, and the
 //! models of the family by name, over any scalar.
 //!
-//! The tests themselves stand in `tests/family` (laws between levels, one battery for every model) and
-//! `tests/allocation.rs` (no heap in a step).
+//! The tests themselves are in `tests/family`: laws between levels, one battery for every model, no heap in a step.
 
 /// The workspace's front page, whose program is compiled and run as a documentation test.
 #[cfg(doctest)]

@@ -1,5 +1,7 @@
 //! Chores of the repository. `cargo xtask reproduce-figures --help` explains the first one.
 
+mod features;
+
 use std::env;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -9,9 +11,14 @@ const USAGE: &str = "\
 usage: cargo xtask <chore> [arguments]
 
 chores:
+  features            check that the programs share the builds of their dependencies
   identify            measure, identify and fly the vehicle of the virtual laboratory (--help for its arguments)
   reproduce-figures   draw the figures and tables and check their claims (--help for its arguments)
 ";
+
+/// What is said before the program that draws is built for the first time.
+const FIRST_BUILD: &str =
+    "building the program that draws the figures: some minutes, once (the README says how many)";
 
 /// Exit code for bad usage.
 const BAD_USAGE: u8 = 2;
@@ -27,6 +34,7 @@ fn main() -> ExitCode {
             let chore = OsString::from(identify);
             experiments(std::iter::once(chore).chain(arguments).collect())
         }
+        Some("features") => features::check(&workspace()),
         Some("help" | "--help" | "-h") => {
             print!("{USAGE}");
             ExitCode::SUCCESS
@@ -48,18 +56,22 @@ fn workspace() -> PathBuf {
     Path::new(&xtask).join("../Cargo.toml")
 }
 
-/// Builds and runs the package `experiments` in release, with the same arguments and the same exit code.
+/// Where the program that draws the figures comes to lie.
+fn is_built(manifest: &Path) -> bool {
+    let target =
+        env::var_os("CARGO_TARGET_DIR").map_or_else(|| manifest.with_file_name("target"), PathBuf::from);
+    let name = format!("experiments{}", env::consts::EXE_SUFFIX);
+    target.join("debug").join(name).exists()
+}
+
+/// Builds and runs the package `experiments`, with the same arguments and the same exit code.
 fn experiments(arguments: Vec<OsString>) -> ExitCode {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    if !is_built(&workspace()) {
+        eprintln!("{FIRST_BUILD}");
+    }
     let status = Command::new(cargo)
-        .args([
-            "run",
-            "--release",
-            "--quiet",
-            "--package",
-            "experiments",
-            "--manifest-path",
-        ])
+        .args(["run", "--package", "experiments", "--manifest-path"])
         .arg(workspace())
         .arg("--")
         .args(arguments)

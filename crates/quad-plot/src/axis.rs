@@ -1,5 +1,8 @@
 //! Axes: range, ticks and tick labels.
 
+use super::ticks::{LogTicks, decimals_of, log_label};
+pub use super::ticks::{nice_step, superscript};
+
 /// An axis as the caller states it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
@@ -38,43 +41,55 @@ pub struct SettledAxis {
     pub step: f64,
     /// Power of ten that the tick labels of a linear axis leave out; it stands once, at the end of the axis.
     pub exponent: i32,
+    /// How many ticks would look right.
+    pub target_ticks: f64,
 }
 
 /// How much of the data's range is left free at each end, where an axis is padded.
 const PADDING: f64 = 0.04;
+/// The largest number that an axis shows, so that room beyond it is a number, too.
+const LARGEST: f64 = 1e308;
+/// Points farther from an axis than this, in lengths of it, are taken to be this far: farther than any page, near enough to be computed with.
+const FARTHEST: f64 = 1e4;
 
 impl Axis {
     /// Settles range and ticks for these values.
     ///
     /// `padded` leaves some room beyond the data (heights), an unpadded axis ends with them (times);
-    /// `target_ticks` is how many ticks would look right.
+    /// `target_ticks` is how many ticks would look right. A stated range that is none (empty, not finite, or not positive on a
+    /// logarithmic axis) is left to the data.
     pub fn settle(&self, values: impl Iterator<Item = f64>, padded: bool, target_ticks: f64) -> SettledAxis {
-        let usable = |v: &f64| v.is_finite() && (self.scale == Scale::Linear || *v > 0.0);
+        let log = self.scale == Scale::Log;
+        let usable = |v: &f64| v.is_finite() && (!log || *v > 0.0);
         let (low, high) = values
             .filter(usable)
+            .map(|v| v.clamp(-LARGEST, LARGEST))
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
                 (f64::min(low, v), f64::max(high, v))
             });
-        let (min, max) = match self.range {
-            Some(range) => range,
-            None if low > high => (if self.scale == Scale::Log { 0.1 } else { 0.0 }, 1.0),
-            None if self.scale == Scale::Log => widen_log(low, high),
+        let stated = self
+            .range
+            .filter(|(low, high)| usable(low) && usable(high) && low < high);
+        let (min, max) = match stated {
+            Some((low, high)) => (low.max(-LARGEST), high.min(LARGEST)),
+            None if low > high => (if log { 0.1 } else { 0.0 }, 1.0),
+            None if log => widen_log(low, high),
             None => widen(low, high, padded),
         };
-        let step = self
-            .step
-            .unwrap_or_else(|| nice_step((max - min) / target_ticks.max(1.0)));
-        let exponent = if self.scale == Scale::Linear {
-            common_exponent(min.abs().max(max.abs()))
-        } else {
-            0
-        };
+        let target_ticks = target_ticks.max(1.0);
+        let fitting = nice_step(max / target_ticks - min / target_ticks);
+        let bearable = |step: &f64| *step > 0.0 && (max / step - min / step) <= MOST_TICKS;
         SettledAxis {
             min,
             max,
             scale: self.scale,
-            step,
-            exponent,
+            step: self.step.filter(bearable).unwrap_or(fitting),
+            exponent: if log {
+                0
+            } else {
+                common_exponent(min.abs().max(max.abs()))
+            },
+            target_ticks,
         }
     }
 }
@@ -82,12 +97,15 @@ impl Axis {
 fn widen(low: f64, high: f64, padded: bool) -> (f64, f64) {
     let range = high - low;
     let negligible = 1e-12 * low.abs().max(high.abs());
-    if range <= negligible {
-        let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
-        return (low - half, high + half);
-    }
-    let padding = if padded { PADDING * range } else { 0.0 };
-    (low - padding, high + padding)
+    let room = if range <= negligible {
+        // Below this, a tenth of the value and the steps within it are no normal numbers.
+        if low.abs() < 1e-300 { 1.0 } else { 0.1 * low.abs() }
+    } else if padded {
+        PADDING * range.min(LARGEST)
+    } else {
+        0.0
+    };
+    ((low - room).max(-LARGEST), (high + room).min(LARGEST))
 }
 
 /// Extends a logarithmic range to whole decades where that costs less than half a decade, else by a little.
@@ -97,22 +115,14 @@ fn widen_log(low: f64, high: f64) -> (f64, f64) {
     let low = if low - floor < 0.5 { floor } else { low - 0.1 };
     let high = if ceiling - high < 0.5 { ceiling } else { high + 0.1 };
     let high = if high > low { high } else { low + 1.0 };
-    (10f64.powf(low), 10f64.powf(high))
+    // The decades of normal numbers.
+    const DECADES: (f64, f64) = (-307.0, 308.0);
+    let low = low.clamp(DECADES.0, DECADES.1 - 1.0);
+    (10f64.powf(low), 10f64.powf(high.clamp(low + 1e-3, DECADES.1)))
 }
 
-/// 1, 2 or 5 times a power of ten, whichever is nearest to `raw` in ratio.
-pub fn nice_step(raw: f64) -> f64 {
-    if !(raw.is_finite() && raw > 0.0) {
-        return 1.0;
-    }
-    let decade = 10f64.powf(raw.log10().floor());
-    let distance = |factor: &f64| (raw / (factor * decade)).ln().abs();
-    let nearest = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    nearest.unwrap_or(1.0) * decade
-}
-
+/// More ticks than this no axis has, whatever step is asked for.
+const MOST_TICKS: f64 = 200.0;
 /// Axes whose largest value is below this carry a common power of ten.
 const SMALLEST_PLAIN: f64 = 2e-3;
 /// Axes whose largest value is above this carry a common power of ten.
@@ -121,16 +131,24 @@ const LARGEST_PLAIN: f64 = 5e4;
 /// The power of ten, a multiple of three, that the labels of an axis up to `magnitude` leave out.
 fn common_exponent(magnitude: f64) -> i32 {
     if magnitude == 0.0 || (SMALLEST_PLAIN..=LARGEST_PLAIN).contains(&magnitude) {
-        return 0;
+        0
+    } else {
+        power_of_thousand(magnitude)
     }
-    (magnitude.log10() / 3.0).floor() as i32 * 3
+}
+
+/// The power of ten, a multiple of three, at or below `magnitude`.
+pub(super) fn power_of_thousand(magnitude: f64) -> i32 {
+    // The least whose inverse is a number.
+    const LEAST: i32 = -306;
+    ((magnitude.log10() / 3.0).floor() as i32 * 3).max(LEAST)
 }
 
 impl SettledAxis {
-    /// Positions of the ticks.
+    /// Positions of the labelled ticks.
     pub fn ticks(&self) -> Vec<f64> {
         if self.scale == Scale::Log {
-            return kuva::render::render_utils::generate_ticks_log(self.min, self.max);
+            return LogTicks::of(self.min, self.max, self.target_ticks).labelled;
         }
         // A thousandth of a step of slack, so that a tick at the very end is not lost to rounding.
         let slack = 1e-3;
@@ -139,10 +157,18 @@ impl SettledAxis {
         (first..=last).map(|i| i as f64 * self.step).collect()
     }
 
+    /// Positions of the short ticks without labels: those of a logarithmic axis.
+    pub fn minor_ticks(&self) -> Vec<f64> {
+        match self.scale {
+            Scale::Linear => Vec::new(),
+            Scale::Log => LogTicks::of(self.min, self.max, self.target_ticks).minor,
+        }
+    }
+
     /// The label of a tick: as many decimals as the step needs, and a true minus sign.
     pub fn tick_label(&self, value: f64) -> String {
         if self.scale == Scale::Log {
-            return self.log_label(value);
+            return log_label(value, self.min, self.max);
         }
         if value.abs() < 1e-6 * self.step {
             return "0".into();
@@ -161,48 +187,25 @@ impl SettledAxis {
         }
     }
 
-    /// Plain numbers where the whole axis lies between a hundredth and a thousand, powers of ten otherwise.
-    fn log_label(&self, value: f64) -> String {
-        let exponent = value.log10();
-        let decade = exponent.floor() as i32;
-        if self.min >= 0.01 * (1.0 - 1e-9) && self.max <= 1000.0 * (1.0 + 1e-9) {
-            return format!(
-                "{:.*}",
-                (-((exponent + 1e-9).floor() as i32)).max(0) as usize,
-                value
-            );
-        }
-        let power = exponent.round() as i32;
-        if (exponent - f64::from(power)).abs() < 1e-6 {
-            return format!("10{}", superscript(power));
-        }
-        format!("{:.0}·10{}", value / 10f64.powi(decade), superscript(decade))
-    }
-
     /// Position along the axis: 0 at the lower end, 1 at the upper.
     pub fn fraction(&self, value: f64) -> f64 {
         match self.scale {
-            Scale::Linear => (value - self.min) / (self.max - self.min),
-            Scale::Log => (value / self.min).ln() / (self.max / self.min).ln(),
+            // Halves, since the difference of two numbers may be too large for one.
+            Scale::Linear => (0.5 * value - 0.5 * self.min) / (0.5 * self.max - 0.5 * self.min),
+            Scale::Log => (value.ln() - self.min.ln()) / (self.max.ln() - self.min.ln()),
         }
     }
-}
 
-/// Decimals that tell multiples of `step` apart: 1 for 0.5, 2 for 0.25.
-fn decimals_of(step: f64) -> usize {
-    let distinguishes = |decimals: &usize| {
-        let scaled = step * 10f64.powi(*decimals as i32);
-        (scaled - scaled.round()).abs() < 1e-6 * scaled
-    };
-    const MOST_DECIMALS: usize = 6;
-    (0..MOST_DECIMALS).find(distinguishes).unwrap_or(MOST_DECIMALS)
-}
+    /// Position along the axis of a value that can be shown: none for one that is not finite, or not positive on a logarithmic axis.
+    pub(super) fn place(&self, value: f64) -> Option<f64> {
+        let shown = value.is_finite() && (self.scale == Scale::Linear || value > 0.0);
+        shown.then(|| self.fraction(value).clamp(-FARTHEST, FARTHEST))
+    }
 
-/// An integer in superscript figures: `⁻³`.
-pub fn superscript(value: i32) -> String {
-    const FIGURES: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let figure = |c: char| c.to_digit(10).map_or('⁻', |digit| FIGURES[digit as usize]);
-    value.to_string().chars().map(figure).collect()
+    /// Position along the axis; the lower end for a value that can't be shown.
+    pub(super) fn place_or_end(&self, value: f64) -> f64 {
+        self.place(value).unwrap_or(0.0)
+    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,16 @@
 //! A figure: a grid of panels under one legend.
 
-use super::chart::{Area, LABEL, Placed, RIGHT, TICK, TICK_LENGTH, draw_panel, equalise, foot};
+use std::ops::Range;
+
+use super::axis::{Scale, power_of_thousand};
+use super::chart::{EXPONENT_ROW, LABEL, Placed, RIGHT, TICK, TICK_LENGTH, draw_panel, equalise, foot};
+use super::font;
+use super::frame::Area;
 use super::legend::{Entry, Legend};
 use super::panel::Panel;
 use super::space::Space;
-use super::svg::{Svg, TextLook, at};
-use super::text;
+use super::style::INK;
+use super::svg::{Anchor, Svg, TextLook, at};
 
 /// A grid of panels, filled row by row.
 ///
@@ -113,55 +118,75 @@ impl Figure {
     /// Draws the figure.
     pub fn draw(&self) -> Svg {
         let placed = self.settle();
-        let lefts = self.column_margins(&placed);
-        let cell_width = |column: usize| lefts[column] + self.size.0 + RIGHT;
-        let width = 2.0 * MARGIN + (0..self.columns).map(cell_width).sum::<f64>();
+        let layout = self.layout(&placed);
+        let inner: f64 = (0..self.columns).map(|column| layout.cell_width(column)).sum();
         let common = match self.legends {
-            Legends::Common => Legend::new(self.cells.iter().flat_map(entries), width - 2.0 * MARGIN),
-            _ => Legend::new([], width),
+            Legends::Common => Legend::new(self.cells.iter().flat_map(entries), inner),
+            _ => Legend::new([], inner),
         };
-        let mut svg = Svg::new(width, 0.0);
-        common.draw(
-            &mut svg,
-            lefts[0] + MARGIN + (width - 2.0 * MARGIN - lefts[0] - RIGHT) / 2.0,
-            MARGIN,
-        );
+        let width = inner.max(common.width());
+        let mut svg = Svg::new(2.0 * MARGIN + width, 0.0);
+        let centre = MARGIN + (inner + layout.lefts[0] - RIGHT) / 2.0;
+        common.draw(&mut svg, centre, MARGIN, (MARGIN, MARGIN + width));
         let mut top = MARGIN + common.height();
-        for row in 0..self.cells.len().div_ceil(self.columns) {
-            let cells = row * self.columns..((row + 1) * self.columns).min(self.cells.len());
-            let head = cells.clone().map(|i| self.head(i).1).fold(0.0, f64::max);
-            let below = cells
-                .clone()
-                .map(|i| placed[i].as_ref().map_or(0.0, foot))
-                .fold(0.0, f64::max);
-            let mut left = MARGIN;
-            for (column, i) in cells.clone().enumerate() {
-                let area = Area {
-                    origin: at(left + lefts[column], top + head),
-                    size: self.size,
-                };
-                self.draw_head(&mut svg, i, area, head);
-                match (&self.cells[i], &placed[i]) {
-                    (Cell::Panel(_), Some(placed)) => draw_panel(&mut svg, placed, area, i, lefts[column]),
-                    (Cell::Space(space), _) => {
-                        // A space has its labels inside, so it takes the room of margins and axis labels too.
-                        let size = (cell_width(column), self.size.1 + below);
-                        space.draw_in(
-                            &mut svg,
-                            Area {
-                                origin: at(left, top + head),
-                                size,
-                            },
-                        );
-                    }
-                    (Cell::Panel(_), None) => {}
-                }
-                left += cell_width(column);
-            }
-            top += head + self.size.1 + below + ROW_GAP;
+        for first in (0..self.cells.len()).step_by(self.columns) {
+            let row = first..(first + self.columns).min(self.cells.len());
+            top += self.draw_row(&mut svg, row, &placed, &layout, top) + ROW_GAP;
         }
         svg.height = top - ROW_GAP + MARGIN;
         svg
+    }
+
+    /// Draws a row of cells and returns its height.
+    fn draw_row(
+        &self,
+        svg: &mut Svg,
+        row: Range<usize>,
+        placed: &[Option<Placed<'_>>],
+        layout: &Layout,
+        top: f64,
+    ) -> f64 {
+        let tallest = |height: &dyn Fn(usize) -> f64| row.clone().map(height).fold(0.0, f64::max);
+        let has_exponent = |i: usize| placed[i].as_ref().is_some_and(|p| p.y.exponent != 0);
+        let exponents = if row.clone().any(has_exponent) {
+            EXPONENT_ROW
+        } else {
+            0.0
+        };
+        let head = exponents + tallest(&|i| self.caption_height(i) + self.own_legend(i, layout).height());
+        let below = tallest(&|i| placed[i].as_ref().map_or(0.0, |placed| foot(placed, self.size.0)));
+        let mut left = MARGIN;
+        for i in row.clone() {
+            let column = i % self.columns;
+            let width = layout.cell_width(column);
+            let area = Area {
+                origin: at(left + layout.lefts[column], top + head),
+                size: self.size,
+            };
+            svg.text(at(area.origin.x, top + LABEL), &self.caption(i), CAPTION);
+            let legend = self.own_legend(i, layout);
+            let legend_top = area.origin.y - exponents - legend.height();
+            legend.draw(
+                svg,
+                area.origin.x + self.size.0 / 2.0,
+                legend_top,
+                (left, left + width),
+            );
+            match (&self.cells[i], &placed[i]) {
+                (Cell::Panel(_), Some(placed)) => draw_panel(svg, placed, area, layout.lefts[column]),
+                // A space has its labels inside, so it takes the room of margins and axis labels too.
+                (Cell::Space(space), _) => space.draw_in(
+                    svg,
+                    Area {
+                        origin: at(left, top + head),
+                        size: (width, self.size.1 + below),
+                    },
+                ),
+                (Cell::Panel(_), None) => {}
+            }
+            left += width;
+        }
+        head + self.size.1 + below
     }
 
     /// Settles the axes of all panels.
@@ -184,12 +209,13 @@ impl Figure {
             };
             let mut x = panel.x.settle(
                 abscissae.into_iter(),
-                !panel.runs_along_x(),
+                !panel.runs_along_x() && !panel.is_filled(),
                 self.size.0 / TICK_PITCH.0,
             );
+            let heights = extent.iter().map(|p| p.1);
             let mut y = panel
                 .y
-                .settle(extent.iter().map(|p| p.1), true, self.size.1 / TICK_PITCH.1);
+                .settle(heights, !panel.is_filled(), self.size.1 / TICK_PITCH.1);
             if panel.equal_aspect {
                 equalise(&mut x, &mut y, self.size);
             }
@@ -201,7 +227,9 @@ impl Figure {
                 labelled_x: !self.share_x || lowest,
             })
         };
-        (0..self.cells.len()).map(settle).collect()
+        let mut placed: Vec<_> = (0..self.cells.len()).map(settle).collect();
+        share_exponents(&mut placed);
+        placed
     }
 
     fn panel_at(&self, i: usize) -> Option<&Panel> {
@@ -211,34 +239,38 @@ impl Figure {
         }
     }
 
-    /// Room left of the data area for each column: tick labels and axis label.
-    fn column_margins(&self, placed: &[Option<Placed<'_>>]) -> Vec<f64> {
+    /// Room beside the data area of each column: for tick labels and axis label, and for what is wider than it.
+    fn layout(&self, placed: &[Option<Placed<'_>>]) -> Layout {
         let needed = |placed: &Placed<'_>| {
-            let labels = placed.y.ticks().into_iter().map(|tick| placed.y.tick_label(tick));
-            let widest = labels
-                .map(|label| text::width(&label, f64::from(TICK)))
-                .fold(0.0, f64::max);
+            let labels = placed.y_labels(self.size.1);
+            let widths = labels.iter().map(|(_, label)| font::width(label, TICK));
             let title = if placed.panel.y.label.is_empty() {
                 0.0
             } else {
                 LABEL + 8.0
             };
-            widest + TICK_LENGTH + 8.0 + title
+            widths.fold(0.0, f64::max) + TICK_LENGTH + 8.0 + title
         };
         let column = |c: usize| {
-            placed
-                .iter()
-                .skip(c)
-                .step_by(self.columns)
-                .flatten()
-                .map(needed)
-                .fold(0.0, f64::max)
+            let column = placed.iter().skip(c).step_by(self.columns);
+            column.flatten().map(needed).fold(0.0, f64::max)
         };
-        (0..self.columns).map(column).collect()
+        let mut layout = Layout {
+            lefts: (0..self.columns).map(column).collect(),
+            rights: vec![RIGHT; self.columns],
+            width: self.size.0,
+        };
+        // A legend that no number of rows makes narrow enough widens its column.
+        for i in 0..self.cells.len() {
+            let column = i % self.columns;
+            let surplus = self.own_legend(i, &layout).width() - layout.cell_width(column);
+            layout.rights[column] += surplus.max(0.0);
+        }
+        layout
     }
 
-    /// Caption, with the panel's letter if there are several, and the height above the data area.
-    fn head(&self, i: usize) -> (String, f64) {
+    /// Caption, with the panel's letter if there are several.
+    fn caption(&self, i: usize) -> String {
         let caption = match &self.cells[i] {
             Cell::Panel(panel) => &panel.caption,
             Cell::Space(space) => &space.caption,
@@ -249,34 +281,68 @@ impl Figure {
         } else {
             caption.clone()
         };
-        let words = words.trim_end().to_owned();
-        let legend = if self.legends == Legends::EachPanel {
-            self.own_legend(i).height()
+        words.trim_end().to_owned()
+    }
+
+    fn caption_height(&self, i: usize) -> f64 {
+        if self.caption(i).is_empty() {
+            2.0
         } else {
-            0.0
-        };
-        let caption_height = if words.is_empty() { 2.0 } else { LABEL + 8.0 };
-        (words, caption_height + legend)
+            LABEL + 8.0
+        }
     }
 
-    fn own_legend(&self, i: usize) -> Legend {
-        Legend::new(entries(&self.cells[i]), self.size.0)
+    /// The legend above a panel of its own; empty if there is none.
+    fn own_legend(&self, i: usize, layout: &Layout) -> Legend {
+        let width = layout.cell_width(i % self.columns);
+        match self.legends {
+            Legends::EachPanel => Legend::new(entries(&self.cells[i]), width),
+            _ => Legend::new([], width),
+        }
     }
+}
 
-    fn draw_head(&self, svg: &mut Svg, i: usize, area: Area, head: f64) {
-        let (words, _) = self.head(i);
-        let look = TextLook {
-            size: LABEL,
-            ..TextLook::default()
+/// Room left and right of the data areas of each column, and the width of a data area, px.
+struct Layout {
+    lefts: Vec<f64>,
+    rights: Vec<f64>,
+    width: f64,
+}
+
+impl Layout {
+    fn cell_width(&self, column: usize) -> f64 {
+        self.lefts[column] + self.width + self.rights[column]
+    }
+}
+
+/// Look of captions.
+const CAPTION: TextLook = TextLook {
+    size: LABEL,
+    anchor: Anchor::Start,
+    colour: INK,
+    rotation: 0.0,
+    bold: false,
+};
+/// Panels of one quantity share a power of ten if the smallest is at least this share of the largest: their labels keep few decimals.
+const COMPARABLE: f64 = 1e-3;
+
+/// Gives panels with the same vertical label one power of ten, so that their heights can be compared.
+fn share_exponents(placed: &mut [Option<Placed<'_>>]) {
+    let magnitude = |p: &Placed<'_>| p.y.min.abs().max(p.y.max.abs());
+    for i in 0..placed.len() {
+        let Some(label) = placed[i].as_ref().map(|p| p.panel.y.label.clone()) else {
+            continue;
         };
-        svg.text(at(area.origin.x, area.origin.y - head + LABEL), &words, look);
-        if self.legends == Legends::EachPanel {
-            let legend = self.own_legend(i);
-            legend.draw(
-                svg,
-                area.origin.x + area.size.0 / 2.0,
-                area.origin.y - legend.height(),
-            );
+        let alike = |p: &&mut Placed<'_>| p.panel.y.label == label && p.y.scale == Scale::Linear;
+        let group: Vec<&mut Placed<'_>> = placed.iter_mut().flatten().filter(alike).collect();
+        let magnitudes = || group.iter().map(|p| magnitude(p));
+        let (least, most) = (
+            magnitudes().fold(f64::INFINITY, f64::min),
+            magnitudes().fold(0.0, f64::max),
+        );
+        if group.iter().any(|p| p.y.exponent != 0) && least >= COMPARABLE * most {
+            let exponent = power_of_thousand(most);
+            group.into_iter().for_each(|p| p.y.exponent = exponent);
         }
     }
 }

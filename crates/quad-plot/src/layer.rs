@@ -1,16 +1,68 @@
-//! What a panel is made of, and how kuva draws it.
+//! What a panel is made of.
 
-use std::fmt;
-use std::sync::Arc;
+use super::legend::{Entry, Sample};
+use super::style::Look;
 
-use kuva::plot::{BandPlot, LinePlot, LineStyle, MarkerShape, ScatterPlot};
-use kuva::render::plots::Plot;
+/// A measured point with the half-width of its interval along y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorBar {
+    /// Abscissa.
+    pub x: f64,
+    /// Ordinate.
+    pub y: f64,
+    /// Half-width of the interval along y.
+    pub half_width: f64,
+}
 
-use super::axis::{Scale, SettledAxis};
-use super::decimate::{Resolution, decimate};
-use super::legend::{DOT, Entry, Sample};
-use super::panel::{BandPoint, ErrorBar};
-use super::style::{Look, Marker};
+/// A point of a band: its lower and upper limit at `x`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandPoint {
+    /// Abscissa.
+    pub x: f64,
+    /// Lower limit.
+    pub lower: f64,
+    /// Upper limit.
+    pub upper: f64,
+}
+
+/// A bar from zero, or from the lower end of a logarithmic axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bar {
+    /// Abscissa of its middle; 1, 2, … on an axis with categories.
+    pub x: f64,
+    /// Its height, below zero if it hangs.
+    pub height: f64,
+    /// Its colour, `#rrggbb`.
+    pub colour: &'static str,
+}
+
+/// A field on a grid, drawn as contour lines, as bands between them, or both.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contours {
+    /// Abscissae of the columns, ascending.
+    pub x: Vec<f64>,
+    /// Ordinates of the rows, ascending.
+    pub y: Vec<f64>,
+    /// Values, a row for each ordinate. Where one is missing or not finite, nothing is drawn.
+    pub rows: Vec<Vec<f64>>,
+    /// Values of the contours, ascending.
+    pub levels: Vec<f64>,
+    /// Colours of the bands, below the first contour, between any two, above the last; none for lines alone.
+    pub fills: Vec<String>,
+    /// Look of the contours, if they are drawn.
+    pub line: Option<Look>,
+}
+
+/// Coloured rectangles: a matrix or a heat map.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cells {
+    /// Abscissae of the edges, one more than columns, ascending.
+    pub x: Vec<f64>,
+    /// Ordinates of the edges, one more than rows, ascending.
+    pub y: Vec<f64>,
+    /// Colours, `#rrggbb`, row by row from the lowest.
+    pub fills: Vec<Vec<String>>,
+}
 
 /// One thing drawn in a panel.
 #[derive(Clone, Debug)]
@@ -30,26 +82,13 @@ pub(super) enum Layer {
         look: Look,
         points: Vec<BandPoint>,
     },
-    Kuva {
-        plot: Factory,
-        bounds: Option<((f64, f64), (f64, f64))>,
+    Bars {
+        label: String,
+        width: f64,
+        bars: Vec<Bar>,
     },
-}
-
-/// Makes a plot of kuva's, which cannot be cloned.
-#[derive(Clone)]
-pub(super) struct Factory(Arc<dyn Fn() -> Plot + Send + Sync>);
-
-impl Factory {
-    pub(super) fn new(plot: impl Fn() -> Plot + Send + Sync + 'static) -> Self {
-        Self(Arc::new(plot))
-    }
-}
-
-impl fmt::Debug for Factory {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Factory")
-    }
+    Contours(Contours),
+    Cells(Cells),
 }
 
 /// A line across the whole panel.
@@ -68,13 +107,8 @@ pub(super) struct Note {
     pub(super) text: String,
 }
 
-/// Radius of markers, px.
-const MARKER_SIZE: f64 = 3.2;
-/// Opacity of bands.
-const BAND_OPACITY: f64 = 0.22;
-
 impl Layer {
-    /// Points that the axes must cover.
+    /// Points that the axes must cover; a coordinate that is not finite asks for nothing.
     pub(super) fn extent(&self) -> Vec<(f64, f64)> {
         match self {
             Self::Line { points, .. } => points.clone(),
@@ -86,11 +120,14 @@ impl Layer {
                 .iter()
                 .flat_map(|p| [(p.x, p.lower), (p.x, p.upper)])
                 .collect(),
-            Self::Kuva {
-                bounds: Some(((x0, x1), (y0, y1))),
-                ..
-            } => vec![(*x0, *y0), (*x1, *y1)],
-            Self::Kuva { bounds: None, .. } => Vec::new(),
+            Self::Bars { width, bars, .. } => bars
+                .iter()
+                .flat_map(|b| [(b.x - width / 2.0, 0.0), (b.x + width / 2.0, b.height)])
+                .collect(),
+            Self::Contours(Contours { x, y, .. }) | Self::Cells(Cells { x, y, .. }) => {
+                let abscissae = x.iter().map(|x| (*x, f64::NAN));
+                abscissae.chain(y.iter().map(|y| (f64::NAN, *y))).collect()
+            }
         }
     }
 
@@ -102,114 +139,24 @@ impl Layer {
         }
     }
 
+    /// Whether the layer fills the axes to their ends, so that they need no room beyond it.
+    pub(super) fn fills_the_area(&self) -> bool {
+        matches!(self, Self::Contours(_) | Self::Cells(_))
+    }
+
     /// The legend entry, with an empty label if it is to be left out.
     pub(super) fn entry(&self) -> Option<Entry> {
         let (label, look, sample) = match self {
-            Self::Line { label, look, .. } => (label, look, Sample::Line),
-            Self::Markers { label, look, .. } => (label, look, Sample::Marker),
-            Self::Band { label, look, .. } => (label, look, Sample::Band),
-            Self::Kuva { .. } => return None,
+            Self::Line { label, look, .. } => (label, *look, Sample::Line),
+            Self::Markers { label, look, .. } => (label, *look, Sample::Marker),
+            Self::Band { label, look, .. } => (label, *look, Sample::Band),
+            Self::Bars { label, bars, .. } => (label, Look::solid(bars.first()?.colour, 1.0), Sample::Patch),
+            Self::Contours(_) | Self::Cells(_) => return None,
         };
         Some(Entry {
             label: label.clone(),
-            look: *look,
+            look,
             sample,
         })
-    }
-
-    /// The layer as kuva's plots.
-    pub(super) fn plots(&self, axes: (&SettledAxis, &SettledAxis), size: (f64, f64)) -> Vec<Plot> {
-        match self {
-            Self::Line { look, points, .. } => thinned(points, axes, size)
-                .into_iter()
-                .map(|run| Plot::Line(line_plot(look, run)))
-                .collect(),
-            Self::Markers { look, points, .. } => vec![Plot::Scatter(scatter_plot(look, points))],
-            Self::Band { look, points, .. } => vec![Plot::Band(band_plot(look, points))],
-            Self::Kuva { plot, .. } => vec![(plot.0)()],
-        }
-    }
-}
-
-/// Runs of the points that a reader can tell apart, in data units.
-fn thinned(
-    points: &[(f64, f64)],
-    axes: (&SettledAxis, &SettledAxis),
-    size: (f64, f64),
-) -> Vec<Vec<(f64, f64)>> {
-    let along = |value: f64, scale: Scale| if scale == Scale::Log { value.log10() } else { value };
-    let back = |value: f64, scale: Scale| {
-        if scale == Scale::Log {
-            10f64.powf(value)
-        } else {
-            value
-        }
-    };
-    let length = |axis: &SettledAxis| along(axis.max, axis.scale) - along(axis.min, axis.scale);
-    let resolution = Resolution {
-        x: size.0 / length(axes.0),
-        y: size.1 / length(axes.1),
-    };
-    let scaled: Vec<_> = points
-        .iter()
-        .map(|p| (along(p.0, axes.0.scale), along(p.1, axes.1.scale)))
-        .collect();
-    let mut runs = decimate(&scaled, resolution);
-    for point in runs.iter_mut().flatten() {
-        *point = (back(point.0, axes.0.scale), back(point.1, axes.1.scale));
-    }
-    runs
-}
-
-fn line_plot(look: &Look, points: Vec<(f64, f64)>) -> LinePlot {
-    let style = if look.dash.is_empty() {
-        LineStyle::Solid
-    } else {
-        LineStyle::Custom(look.dash.into())
-    };
-    LinePlot::new()
-        .with_data(points)
-        .with_color(look.colour)
-        .with_stroke_width(look.width)
-        .with_line_style(style)
-}
-
-fn scatter_plot(look: &Look, points: &[ErrorBar]) -> ScatterPlot {
-    let plot = ScatterPlot::new()
-        .with_data(points.iter().map(|p| (p.x, p.y)))
-        .with_color(look.colour)
-        .with_size(size(look.marker))
-        .with_marker(shape(look.marker));
-    if points.iter().any(|p| p.half_width > 0.0) {
-        plot.with_y_err(points.iter().map(|p| p.half_width))
-    } else {
-        plot
-    }
-}
-
-fn band_plot(look: &Look, points: &[BandPoint]) -> BandPlot {
-    let column = |value: fn(&BandPoint) -> f64| points.iter().map(value).collect::<Vec<_>>();
-    BandPlot::new(column(|p| p.x), column(|p| p.lower), column(|p| p.upper))
-        .with_color(look.colour)
-        .with_opacity(BAND_OPACITY)
-}
-
-/// Size of a marker, px.
-fn size(marker: Marker) -> f64 {
-    match marker {
-        Marker::Dot => DOT * MARKER_SIZE,
-        _ => MARKER_SIZE,
-    }
-}
-
-/// kuva's name of a marker.
-fn shape(marker: Marker) -> MarkerShape {
-    match marker {
-        Marker::Circle | Marker::Dot => MarkerShape::Circle,
-        Marker::Square => MarkerShape::Square,
-        Marker::Triangle => MarkerShape::Triangle,
-        Marker::Diamond => MarkerShape::Diamond,
-        Marker::TriangleDown => MarkerShape::TriangleDown,
-        Marker::Cross => MarkerShape::Cross,
     }
 }

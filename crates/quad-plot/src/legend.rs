@@ -1,8 +1,9 @@
 //! Legends: rows of samples and words above the data, so that they never hide any.
 
-use super::style::{FAINT, Look, Marker};
+use super::font;
+use super::marker::draw_marker;
+use super::style::{FAINT, Look};
 use super::svg::{Point, Svg, TextLook, at};
-use super::text;
 
 /// An entry of a legend.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub enum Sample {
     Marker,
     /// A shaded patch.
     Band,
+    /// A filled patch.
+    Patch,
 }
 
 /// Font size of legends, px.
@@ -51,7 +54,7 @@ impl Legend {
         let mut measured: Vec<(Entry, f64)> = Vec::new();
         for entry in entries {
             if measured.iter().all(|(known, _)| *known != entry) {
-                let own = sample_width(entry.sample) + GAP + text::width(&entry.label, SIZE);
+                let own = sample_width(entry.sample) + GAP + font::width(&entry.label, SIZE);
                 measured.push((entry, own));
             }
         }
@@ -78,10 +81,16 @@ impl Legend {
         }
     }
 
-    /// Draws the legend centred about `centre`, its top at `top`.
-    pub fn draw(&self, svg: &mut Svg, centre: f64, top: f64) {
+    /// Width of the longest row, px.
+    pub fn width(&self) -> f64 {
+        self.rows.iter().map(|row| row_width(row)).fold(0.0, f64::max)
+    }
+
+    /// Draws the legend, its top at `top`, centred about `centre` as far as the room from `left` to `right` allows.
+    pub fn draw(&self, svg: &mut Svg, centre: f64, top: f64, (left, right): (f64, f64)) {
         for (i, row) in self.rows.iter().enumerate() {
-            let mut x = centre - row_width(row) / 2.0;
+            let width = row_width(row);
+            let mut x = (centre - width / 2.0).min(right - width).max(left);
             let y = top + ROW * (i as f64 + 0.5);
             for (entry, width) in row {
                 draw_sample(svg, entry, at(x, y));
@@ -118,58 +127,13 @@ fn draw_sample(svg: &mut Svg, entry: &Entry, left: Point) {
     match entry.sample {
         Sample::Line => svg.polyline(&[left, right], &entry.look),
         Sample::Marker => draw_marker(svg, centre, &entry.look, 3.6),
-        Sample::Band => {
+        Sample::Band | Sample::Patch => {
+            let opacity = if entry.sample == Sample::Band { 0.3 } else { 1.0 };
             let (w, h) = (SHORT_SAMPLE / 2.0, 4.5);
             let corners = [(-w, -h), (w, -h), (w, h), (-w, h)].map(|(dx, dy)| centre.offset(dx, dy));
-            svg.raw("<g fill-opacity=\"0.3\">");
+            svg.raw(&format!("<g fill-opacity=\"{opacity}\">"));
             svg.polygon(&corners, entry.look.colour, Some(&Look::solid(FAINT, 0.5)));
             svg.raw("</g>");
-        }
-    }
-}
-
-/// Radius of a dot, of a marker's.
-pub(super) const DOT: f64 = 0.4;
-
-/// Draws a marker of this radius, px.
-pub(super) fn draw_marker(svg: &mut Svg, centre: Point, look: &Look, radius: f64) {
-    let corners = |offsets: &[(f64, f64)]| -> Vec<Point> {
-        offsets
-            .iter()
-            .map(|(dx, dy)| centre.offset(dx * radius, dy * radius))
-            .collect()
-    };
-    match look.marker {
-        Marker::Circle => svg.circle(centre, radius, look.colour, None),
-        Marker::Square => {
-            svg.polygon(
-                &corners(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
-                look.colour,
-                None,
-            );
-        }
-        Marker::Triangle => svg.polygon(
-            &corners(&[(-1.0, 0.8), (1.0, 0.8), (0.0, -1.1)]),
-            look.colour,
-            None,
-        ),
-        Marker::TriangleDown => svg.polygon(
-            &corners(&[(-1.0, -0.8), (1.0, -0.8), (0.0, 1.1)]),
-            look.colour,
-            None,
-        ),
-        Marker::Diamond => {
-            svg.polygon(
-                &corners(&[(0.0, -1.2), (1.0, 0.0), (0.0, 1.2), (-1.0, 0.0)]),
-                look.colour,
-                None,
-            );
-        }
-        Marker::Dot => svg.circle(centre, DOT * radius, look.colour, None),
-        Marker::Cross => {
-            let pen = Look::solid(look.colour, 1.5);
-            svg.polyline(&corners(&[(-0.9, -0.9), (0.9, 0.9)]), &pen);
-            svg.polyline(&corners(&[(-0.9, 0.9), (0.9, -0.9)]), &pen);
         }
     }
 }

@@ -1,12 +1,12 @@
-//! The plot layer: one journal style over kuva for charts, and small SVG builders for what kuva lacks.
+//! The plot layer: one journal style for charts and sketches, as SVG and PNG.
 //!
-//! - [`figure::Figure`]: a grid of [`panel::Panel`]s (lines, markers, error bars, bands, reference lines, log axes)
-//!   and [`space::Space`]s (3-D lines); kuva draws axes, ticks and data, this layer the labels and legends.
+//! - [`figure::Figure`]: a grid of [`panel::Panel`]s (lines, markers, error bars, bands, bars, contours, coloured cells,
+//!   reference lines, logarithmic axes) and [`space::Space`]s (3-D lines), with labels and legends.
 //! - [`diagram::Diagram`]: blocks, arrows, arcs and text for block diagrams and sketches.
 //! - [`sketch::Sketch`]: things in space on a diagram: lines, boxes and frames given in W.
 //! - [`style`]: the looks: [`style::level_style`], [`style::reference_style`], [`style::controller_style`].
 //! - [`text`]: the rich text of all labels: `*z*` italic, `_{ref}` subscript, `^{2}` superscript.
-//! - [`raster`]: PNG by resvg with embedded fonts, so that a machine without fonts draws the same pictures.
+//! - [`font`]: the embedded fonts, and how wide words are in them; [`raster`]: PNG with them, by resvg.
 //!
 //! # Example
 //!
@@ -23,11 +23,17 @@
 
 pub mod axis;
 mod chart;
+mod clip;
+mod contour;
+mod data;
 pub mod decimate;
 pub mod diagram;
 pub mod figure;
+pub mod font;
+mod frame;
 mod layer;
 pub mod legend;
+mod marker;
 pub mod panel;
 pub mod raster;
 mod scene;
@@ -36,6 +42,8 @@ pub mod space;
 pub mod style;
 pub mod svg;
 pub mod text;
+mod ticks;
+mod xml;
 
 pub use diagram::Diagram;
 pub use figure::Figure;

@@ -1,11 +1,10 @@
-//! A panel: one pair of axes with lines, markers, error bars, bands and reference lines, drawn by kuva.
+//! A panel: one pair of axes with lines, markers, error bars, bands, bars, contours, coloured cells and reference lines.
 
 use std::cmp::Ordering::Greater;
 
-use kuva::render::plots::Plot;
-
-use super::axis::{Axis, Scale, SettledAxis};
-use super::layer::{Factory, Layer, Note, Rule};
+use super::axis::{Axis, Scale};
+pub use super::layer::{BandPoint, Bar, Cells, Contours, ErrorBar};
+use super::layer::{Layer, Note, Rule};
 use super::legend::{Entry, Sample};
 use super::style::{Look, reference_style};
 
@@ -24,28 +23,6 @@ pub struct Panel {
     pub(super) rules: Vec<Rule>,
     pub(super) notes: Vec<Note>,
     pub(super) included: Vec<(f64, f64)>,
-}
-
-/// A measured point with the half-width of its interval along y.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ErrorBar {
-    /// Abscissa.
-    pub x: f64,
-    /// Ordinate.
-    pub y: f64,
-    /// Half-width of the interval along y.
-    pub half_width: f64,
-}
-
-/// A point of a band: its lower and upper limit at `x`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BandPoint {
-    /// Abscissa.
-    pub x: f64,
-    /// Lower limit.
-    pub lower: f64,
-    /// Upper limit.
-    pub upper: f64,
 }
 
 impl Panel {
@@ -129,14 +106,25 @@ impl Panel {
         self
     }
 
-    /// Adds any plot of kuva's (contours, heat maps, bars, arrows), made by `plot`; set the ranges if kuva states no
-    /// bounds for it.
-    pub fn kuva(mut self, plot: impl Fn() -> Plot + Send + Sync + 'static) -> Self {
-        let bounds = plot().bounds();
-        self.layers.push(Layer::Kuva {
-            plot: Factory::new(plot),
-            bounds,
+    /// Adds bars of this width, in units of the horizontal axis.
+    pub fn bars(mut self, label: impl Into<String>, width: f64, bars: impl IntoIterator<Item = Bar>) -> Self {
+        self.layers.push(Layer::Bars {
+            label: label.into(),
+            width,
+            bars: bars.into_iter().collect(),
         });
+        self
+    }
+
+    /// Adds the contours of a field, the bands between them, or both.
+    pub fn contours(mut self, contours: Contours) -> Self {
+        self.layers.push(Layer::Contours(contours));
+        self
+    }
+
+    /// Adds coloured rectangles, such as those of a matrix.
+    pub fn cells(mut self, cells: Cells) -> Self {
+        self.layers.push(Layer::Cells(cells));
         self
     }
 
@@ -252,6 +240,11 @@ impl Panel {
         !lines.is_empty() && lines.iter().all(rises)
     }
 
+    /// Whether a field or a matrix fills the axes to their ends, so that they need no padding.
+    pub(super) fn is_filled(&self) -> bool {
+        self.layers.iter().any(Layer::fills_the_area)
+    }
+
     /// Legend entries of this panel, in order; those of reference lines last.
     pub(super) fn entries(&self) -> Vec<Entry> {
         let rules = self.rules.iter().map(|rule| Entry {
@@ -261,13 +254,5 @@ impl Panel {
         });
         let entries = self.layers.iter().filter_map(Layer::entry).chain(rules);
         entries.filter(|entry| !entry.label.is_empty()).collect()
-    }
-
-    /// The panel's layers as kuva's plots, thinned to the resolution of the axes.
-    pub(super) fn plots(&self, axes: (&SettledAxis, &SettledAxis), size: (f64, f64)) -> Vec<Plot> {
-        self.layers
-            .iter()
-            .flat_map(|layer| layer.plots(axes, size))
-            .collect()
     }
 }

@@ -1,14 +1,10 @@
-//! PNG from SVG by resvg, with the DejaVu fonts embedded in the program.
-//!
-//! kuva's own PNG back end draws densely sampled dashed lines solid, and a fresh machine has no fonts: hence
-//! resvg, and hence fonts as bytes.
-
-use std::sync::{Arc, LazyLock};
+//! PNG from SVG by resvg, with the DejaVu fonts embedded in the program: a fresh machine has none.
 
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb};
+use resvg::usvg::Tree;
 
-use super::svg::{FONT_FAMILY, Svg, number};
+use super::font::OPTIONS;
+use super::svg::Svg;
 
 /// Pixels of the PNG per px of the SVG: sharp on a page printed at 85 mm width.
 const SCALE: f32 = 2.5;
@@ -32,21 +28,8 @@ pub enum RasterError {
     Encode(String),
 }
 
-static OPTIONS: LazyLock<Options<'static>> = LazyLock::new(|| {
-    let mut fonts = fontdb::Database::new();
-    for face in [
-        dejavu::sans::regular(),
-        dejavu::sans::bold(),
-        dejavu::sans::oblique(),
-    ] {
-        fonts.load_font_data(face.to_vec());
-    }
-    Options {
-        font_family: "DejaVu Sans".into(),
-        fontdb: Arc::new(fonts),
-        ..Options::default()
-    }
-});
+/// More pixels than this, a third of a gigabyte, no page needs.
+const MOST_PIXELS: f64 = 8e7;
 
 /// The picture as PNG.
 ///
@@ -54,7 +37,9 @@ static OPTIONS: LazyLock<Options<'static>> = LazyLock::new(|| {
 /// A picture without area, or an SVG that is not well-formed.
 pub fn png(svg: &Svg) -> Result<Vec<u8>, RasterError> {
     let tree = Tree::from_str(&svg.document(), &OPTIONS)?;
+    let pixels = f64::from(tree.size().width()) * f64::from(tree.size().height()) * f64::from(SCALE * SCALE);
     let size = tree.size().to_int_size().scale_by(SCALE);
+    let size = size.filter(|_| pixels < MOST_PIXELS);
     let pixmap = size.and_then(|size| Pixmap::new(size.width(), size.height()));
     let mut pixmap = pixmap.ok_or(RasterError::Size {
         width: svg.width,
@@ -64,24 +49,6 @@ pub fn png(svg: &Svg) -> Result<Vec<u8>, RasterError> {
     pixmap
         .encode_png()
         .map_err(|error| RasterError::Encode(error.to_string()))
-}
-
-/// Width of the content of an SVG `text` element, px; zero if it draws nothing.
-pub(super) fn text_width(content: &str, size: f64) -> f64 {
-    // Spaces at the ends have no box, so the text is measured between two bars, less the bars alone.
-    measure(&format!("|{content}|"), size) - measure("||", size)
-}
-
-fn measure(content: &str, size: f64) -> f64 {
-    let document = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\" font-family=\"{FONT_FAMILY}\">\
-         <text xml:space=\"preserve\" font-size=\"{}\">{content}</text></svg>",
-        number(size)
-    );
-    match Tree::from_str(&document, &OPTIONS) {
-        Ok(tree) => f64::from(tree.root().bounding_box().width()),
-        Err(_) => 0.0,
-    }
 }
 
 #[cfg(test)]
@@ -112,5 +79,6 @@ mod tests {
     #[test]
     fn prop_an_empty_picture_is_an_error() {
         assert!(png(&Svg::new(0.0, 10.0)).is_err());
+        assert!(png(&Svg::new(1e6, 1e6)).is_err());
     }
 }

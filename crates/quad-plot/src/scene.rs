@@ -1,23 +1,42 @@
 //! The box of a space: its projection onto the page, its walls, axes, ticks and labels.
 
-use super::axis::{Axis, SettledAxis};
-use super::chart::Area;
+use super::axis::SettledAxis;
 use super::decimate::{Resolution, decimate};
-use super::space::{Point3, Space, View};
+use super::font;
+use super::frame::Area;
 use super::style::{FAINT, INK, Look};
 use super::svg::{Anchor, Point, Svg, TextLook, at};
-use super::text;
+
+/// A point in space, in the order of the axes.
+pub type Point3 = [f64; 3];
+
+/// Direction from which a space is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Angle of the eye about the vertical axis from the first axis, degrees.
+    pub azimuth_deg: f64,
+    /// Angle of the eye above the floor, degrees, from 5 to 85.
+    pub elevation_deg: f64,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            azimuth_deg: -55.0,
+            elevation_deg: 24.0,
+        }
+    }
+}
 
 /// Font sizes, px: axis labels, tick labels.
 const LABEL: f64 = 12.0;
 const TICK: f64 = 10.5;
-/// Ticks aimed at on each axis.
-const TARGET_TICKS: f64 = 4.5;
-/// Room for labels around the box, px: left, right, above, below.
-const LEFT: f64 = 56.0;
-const RIGHT: f64 = 34.0;
-pub(super) const TOP: f64 = 8.0;
-pub(super) const BOTTOM: f64 = 46.0;
+/// Least room around the box and its labels, px.
+const BORDER: f64 = 4.0;
+/// Room for labels around the box before their size is known, px.
+const FIRST_ROOM: f64 = 40.0;
+/// Least share of the area that the box itself gets, however long its labels.
+const LEAST_BOX: f64 = 0.3;
 /// Height of the box relative to its longer floor edge, if axes are scaled on their own.
 const FREE_HEIGHT: f64 = 0.75;
 /// Look of the edges of the box that carry ticks.
@@ -25,46 +44,96 @@ const EDGE: Look = Look::solid(INK, 0.8);
 /// Look of grid lines on floor and walls.
 const GRID: Look = Look::solid("#e2e2e2", 0.7);
 
-/// Settled axes and the projection of a [`Space`] into an area.
-pub(super) struct Scene {
+/// What a box shows: its settled axes with their labels, and how it is seen.
+#[derive(Clone, Debug)]
+pub(super) struct Setup<'a> {
     pub(super) axes: [SettledAxis; 3],
+    pub(super) labels: [&'a str; 3],
+    pub(super) view: View,
+    /// Whether a unit is as long on all axes.
+    pub(super) equal: bool,
+}
+
+/// Settled axes and their projection into an area.
+pub(super) struct Scene<'a> {
+    setup: Setup<'a>,
     /// Edges of the box, in units of the projection.
     edges: Point3,
-    view: View,
     scale: f64,
     centre: Point,
 }
 
-impl Scene {
-    /// Settles the axes and fits the box into the area.
-    pub(super) fn new(space: &Space, area: Area) -> Self {
-        let axes = [0, 1, 2].map(|i| space.axes[i].settle(space.extent(i).into_iter(), true, TARGET_TICKS));
-        let lengths = [0, 1, 2].map(|i| axes[i].max - axes[i].min);
+/// Words beside the box.
+struct Words {
+    point: Point,
+    text: String,
+    look: TextLook,
+}
+
+impl<'a> Scene<'a> {
+    /// Fits the box and its labels into the area.
+    pub(super) fn new(setup: Setup<'a>, area: Area) -> Self {
+        let lengths = [0, 1, 2].map(|i| 0.5 * setup.axes[i].max - 0.5 * setup.axes[i].min);
         let longest = lengths.iter().copied().fold(0.0, f64::max);
-        let edges = if space.equal {
+        let edges = if setup.equal {
             lengths.map(|l| l / longest)
         } else {
             [1.0, 1.0, FREE_HEIGHT]
         };
         let mut scene = Self {
-            axes,
+            setup,
             edges,
-            view: space.view,
             scale: 1.0,
             centre: at(0.0, 0.0),
         };
-        scene.fit(area);
+        scene.fit(area, [FIRST_ROOM; 4]);
+        // Labels keep their size and their distance from edges of the box, so the room that they take beside it changes by at most half of
+        // what the box does: five rounds leave less than a thirtieth of the first error.
+        for _ in 0..5 {
+            let room = scene.room();
+            scene.fit(area, room);
+        }
         scene
     }
 
-    /// Scales and centres the box in the area, with room for labels.
-    fn fit(&mut self, area: Area) {
+    /// The lower end of the vertical axis.
+    pub(super) fn floor(&self) -> f64 {
+        self.setup.axes[2].min
+    }
+
+    /// Height of the box with its labels, px.
+    pub(super) fn height(&self) -> f64 {
         let (low, high) = self.bounds();
-        let (width, height) = (area.size.0 - LEFT - RIGHT, area.size.1 - TOP - BOTTOM);
-        let scale = (width / (high.x - low.x)).min(height / (high.y - low.y));
-        let middle = area.origin.offset(LEFT + width / 2.0, TOP + height / 2.0);
-        self.centre = middle.offset(-scale * (low.x + high.x) / 2.0, -scale * (low.y + high.y) / 2.0);
-        self.scale = scale;
+        let [_, _, above, below] = self.room();
+        high.y - low.y + above + below
+    }
+
+    /// Room that the labels take beside the box, px: left, right, above, below.
+    fn room(&self) -> [f64; 4] {
+        let (low, high) = self.bounds();
+        let least = [BORDER; 4];
+        self.words()
+            .iter()
+            .map(Words::extent)
+            .fold(least, |room, (from, to)| {
+                let beside = [low.x - from.x, to.x - high.x, low.y - from.y, to.y - high.y];
+                std::array::from_fn(|i| room[i].max(beside[i] + BORDER))
+            })
+    }
+
+    /// Scales and centres the box in the area, with this room beside it.
+    fn fit(&mut self, area: Area, [left, right, above, below]: [f64; 4]) {
+        let (low, high) = self.bounds();
+        let free = |size: f64, taken: f64| (size - taken).max(LEAST_BOX * size);
+        let (width, height) = (free(area.size.0, left + right), free(area.size.1, above + below));
+        let grow = (width / (high.x - low.x)).min(height / (high.y - low.y));
+        let (across, up) = (
+            0.5 * (low.x + high.x) - self.centre.x,
+            0.5 * (low.y + high.y) - self.centre.y,
+        );
+        let middle = area.origin.offset(left + width / 2.0, above + height / 2.0);
+        self.centre = middle.offset(-grow * across, -grow * up);
+        self.scale *= grow;
     }
 
     /// Upper left and lower right corner of the projected box.
@@ -81,17 +150,11 @@ impl Scene {
         )
     }
 
-    /// Height of the projected box, px.
-    pub(super) fn height(&self) -> f64 {
-        let (low, high) = self.bounds();
-        high.y - low.y
-    }
-
     /// Projects fractions (0 to 1) of the box.
     fn project_fraction(&self, f: Point3) -> Point {
         let [x, y, z] = [0, 1, 2].map(|i| (f[i] - 0.5) * self.edges[i]);
-        let (sin_a, cos_a) = self.view.azimuth_deg.to_radians().sin_cos();
-        let (sin_e, cos_e) = self.view.elevation_deg.to_radians().sin_cos();
+        let (sin_a, cos_a) = self.setup.view.azimuth_deg.to_radians().sin_cos();
+        let (sin_e, cos_e) = self.setup.view.elevation_deg.to_radians().sin_cos();
         let across = -sin_a * x + cos_a * y;
         let towards = cos_a * x + sin_a * y;
         at(
@@ -102,7 +165,7 @@ impl Scene {
 
     /// The place of a point on the page.
     pub(super) fn project(&self, p: Point3) -> Point {
-        self.project_fraction([0, 1, 2].map(|i| self.axes[i].fraction(p[i])))
+        self.project_fraction([0, 1, 2].map(|i| self.setup.axes[i].place_or_end(p[i])))
     }
 
     /// Draws a line through points in space.
@@ -120,7 +183,7 @@ impl Scene {
 
     /// The sides (fractions 0 or 1) of the first two axes that face the eye.
     fn near(&self) -> (f64, f64) {
-        let (sin_a, cos_a) = self.view.azimuth_deg.to_radians().sin_cos();
+        let (sin_a, cos_a) = self.setup.view.azimuth_deg.to_radians().sin_cos();
         (
             if cos_a > 0.0 { 1.0 } else { 0.0 },
             if sin_a > 0.0 { 1.0 } else { 0.0 },
@@ -128,17 +191,15 @@ impl Scene {
     }
 
     /// Floor and far walls with grid lines, and the three edges with ticks and labels.
-    pub(super) fn draw_box(&self, svg: &mut Svg, axes: &[Axis; 3]) {
+    pub(super) fn draw_box(&self, svg: &mut Svg) {
         let (near_x, near_y) = self.near();
         let (far_x, far_y) = (1.0 - near_x, 1.0 - near_y);
         let mut line = |a: Point3, b: Point3, look: &Look| {
             svg.polyline(&[self.project_fraction(a), self.project_fraction(b)], look);
         };
         let fractions = |i: usize| {
-            self.axes[i]
-                .ticks()
-                .into_iter()
-                .map(move |t| self.axes[i].fraction(t))
+            let axis = &self.setup.axes[i];
+            axis.ticks().into_iter().map(move |t| axis.fraction(t))
         };
         for f in fractions(0) {
             line([f, 0.0, 0.0], [f, 1.0, 0.0], &GRID);
@@ -158,24 +219,32 @@ impl Scene {
         line([far_x, far_y, 0.0], [far_x, far_y, 1.0], &outline);
         line([far_x, 0.0, 0.0], [far_x, 1.0, 0.0], &outline);
         line([0.0, far_y, 0.0], [1.0, far_y, 0.0], &outline);
-        self.draw_axis(svg, 0, [0.0, near_y, 0.0], &axes[0].label);
-        self.draw_axis(svg, 1, [near_x, 0.0, 0.0], &axes[1].label);
-        let (left_x, left_y) = self.leftmost(near_x, near_y);
-        self.draw_axis(svg, 2, [left_x, left_y, 0.0], &axes[2].label);
         // The vertical edge on the other side closes the far wall.
+        let (left_x, _) = self.leftmost();
         let (right_x, right_y) = if left_x == near_x {
             (far_x, near_y)
         } else {
             (near_x, far_y)
         };
-        svg.polyline(
-            &[[right_x, right_y, 0.0], [right_x, right_y, 1.0]].map(|f| self.project_fraction(f)),
-            &outline,
-        );
+        line([right_x, right_y, 0.0], [right_x, right_y, 1.0], &outline);
+        for (axis, start) in self.carriers().into_iter().enumerate() {
+            self.draw_edge(svg, axis, start);
+        }
+        for words in self.words() {
+            svg.text(words.point, &words.text, words.look);
+        }
+    }
+
+    /// The lower ends, in fractions, of the edges that carry the axes.
+    fn carriers(&self) -> [Point3; 3] {
+        let (near_x, near_y) = self.near();
+        let (left_x, left_y) = self.leftmost();
+        [[0.0, near_y, 0.0], [near_x, 0.0, 0.0], [left_x, left_y, 0.0]]
     }
 
     /// The vertical edge that lies farthest to the left; it bounds one far wall.
-    fn leftmost(&self, near_x: f64, near_y: f64) -> (f64, f64) {
+    fn leftmost(&self) -> (f64, f64) {
+        let (near_x, near_y) = self.near();
         let candidates = [(near_x, 1.0 - near_y), (1.0 - near_x, near_y)];
         let left = |c: &(f64, f64)| self.project_fraction([c.0, c.1, 0.0]).x;
         if left(&candidates[0]) < left(&candidates[1]) {
@@ -185,48 +254,68 @@ impl Scene {
         }
     }
 
-    /// One edge with ticks, numbers and label; `start` is its lower end, in fractions.
-    fn draw_axis(&self, svg: &mut Svg, axis: usize, start: Point3, label: &str) {
-        let label = &[label, &self.axes[axis].exponent_label()].join(" ");
-        let place = |fraction: f64| {
-            let mut f = start;
-            f[axis] = fraction;
-            self.project_fraction(f)
-        };
-        svg.polyline(&[place(0.0), place(1.0)], &EDGE);
-        let outwards = self.outwards(place(0.0), place(1.0));
-        let settled = &self.axes[axis];
-        let mut widest: f64 = 0.0;
-        for tick in settled.ticks() {
-            let foot = place(settled.fraction(tick));
-            svg.polyline(&[foot, foot.offset(4.0 * outwards.0, 4.0 * outwards.1)], &EDGE);
-            let words = settled.tick_label(tick);
-            widest = widest.max(text::width(&words, TICK));
-            let at = foot.offset(8.0 * outwards.0, 8.0 * outwards.1);
-            svg.text(
-                at.offset(0.0, tick_drop(outwards)),
-                &words,
-                label_look(TICK, outwards),
-            );
+    /// A point of the edge that carries an axis.
+    fn on_edge(&self, axis: usize, start: Point3, fraction: f64) -> Point {
+        let mut f = start;
+        f[axis] = fraction;
+        self.project_fraction(f)
+    }
+
+    /// One edge with its ticks; `start` is its lower end, in fractions.
+    fn draw_edge(&self, svg: &mut Svg, axis: usize, start: Point3) {
+        let ends = [0.0, 1.0].map(|f| self.on_edge(axis, start, f));
+        svg.polyline(&ends, &EDGE);
+        let out = self.outwards(ends[0], ends[1]);
+        for tick in self.setup.axes[axis].ticks() {
+            let foot = self.on_edge(axis, start, self.setup.axes[axis].fraction(tick));
+            svg.polyline(&[foot, foot.offset(4.0 * out.0, 4.0 * out.1)], &EDGE);
         }
-        let middle = place(0.5);
-        if axis == 2 {
-            let look = TextLook {
-                size: LABEL,
-                anchor: Anchor::Middle,
-                rotation: -90.0,
-                ..TextLook::default()
-            };
-            svg.text(middle.offset(-(widest + 20.0), 0.0), label, look);
+    }
+
+    /// All words beside the box.
+    fn words(&self) -> Vec<Words> {
+        let carriers = self.carriers().into_iter().enumerate();
+        carriers
+            .flat_map(|(axis, start)| self.words_of(axis, start))
+            .collect()
+    }
+
+    /// The numbers and the label of an axis.
+    fn words_of(&self, axis: usize, start: Point3) -> Vec<Words> {
+        let settled = &self.setup.axes[axis];
+        let outwards = self.outwards(self.on_edge(axis, start, 0.0), self.on_edge(axis, start, 1.0));
+        let beside = |point: Point, distance: f64, text: String, size: f64| Words {
+            point: point.offset(distance * outwards.0, distance * outwards.1 + tick_drop(outwards)),
+            look: label_look(size, outwards),
+            text,
+        };
+        let numbers = settled.ticks().into_iter().map(|tick| {
+            let foot = self.on_edge(axis, start, settled.fraction(tick));
+            beside(foot, 8.0, settled.tick_label(tick), TICK)
+        });
+        let mut words: Vec<Words> = numbers.collect();
+        let widest = words
+            .iter()
+            .map(|w| font::width(&w.text, TICK))
+            .fold(0.0, f64::max);
+        let middle = self.on_edge(axis, start, 0.5);
+        let label = [self.setup.labels[axis], &settled.exponent_label()].join(" ");
+        words.push(if axis == 2 {
+            Words {
+                point: middle.offset(-(widest + 20.0), 0.0),
+                text: label,
+                look: TextLook {
+                    size: LABEL,
+                    anchor: Anchor::Middle,
+                    rotation: -90.0,
+                    ..TextLook::default()
+                },
+            }
         } else {
             let distance = 16.0 + TICK + widest * outwards.0.abs();
-            let at = middle.offset(distance * outwards.0, distance * outwards.1);
-            svg.text(
-                at.offset(0.0, tick_drop(outwards)),
-                label,
-                label_look(LABEL, outwards),
-            );
-        }
+            beside(middle, distance, label, LABEL)
+        });
+        words
     }
 
     /// Unit vector on the page from the box outwards, square to an edge.
@@ -239,6 +328,31 @@ impl Scene {
             (-normal.0, -normal.1)
         } else {
             normal
+        }
+    }
+}
+
+impl Words {
+    /// Upper left and lower right corner.
+    fn extent(&self) -> (Point, Point) {
+        let (width, size) = (font::width(self.text.trim(), self.look.size), self.look.size);
+        let before = match self.look.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => width / 2.0,
+            Anchor::End => width,
+        };
+        // Above and below the base line, in font sizes: with accents and subscripts.
+        let (above, below) = (0.9 * size, 0.35 * size);
+        if self.look.rotation == 0.0 {
+            (
+                self.point.offset(-before, -above),
+                self.point.offset(width - before, below),
+            )
+        } else {
+            (
+                self.point.offset(-above, before - width),
+                self.point.offset(below, before),
+            )
         }
     }
 }
@@ -269,37 +383,4 @@ fn label_look(size: f64, outwards: (f64, f64)) -> TextLook {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Seen from above, the way from the first axis to the second is counter-clockwise, whatever the azimuth: right-handed.
-    #[test]
-    fn exact_the_axes_are_right_handed() {
-        for azimuth_deg in [-150.0, -62.0, 10.0, 110.0] {
-            let view = View {
-                azimuth_deg,
-                elevation_deg: 40.0,
-            };
-            let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let space = Space::new("x", "y", "up").view(view).line("", EDGE, corners);
-            let area = Area {
-                origin: at(0.0, 0.0),
-                size: (400.0, 400.0),
-            };
-            let scene = Scene::new(&space, area);
-            let [o, x, y, up] = corners.map(|p| scene.project(p));
-            // The page's y points down, so a counter-clockwise turn has a negative cross product.
-            let cross = (x.x - o.x) * (y.y - o.y) - (x.y - o.y) * (y.x - o.x);
-            assert!(cross < 0.0 && up.y < o.y, "{azimuth_deg}: {cross}");
-        }
-    }
-
-    /// A left turn flown from north to west (heading falling, z down) is counter-clockwise from above in the picture as well.
-    #[test]
-    fn exact_a_left_turn_of_a_frame_with_z_down_stays_one() {
-        let north = Space::of_z_down(1.0, 0.0, -2.0);
-        let west = Space::of_z_down(0.0, -1.0, -2.0);
-        assert_eq!((north, west), ([1.0, 0.0, 2.0], [0.0, 1.0, 2.0]));
-        assert!(north[0] * west[1] - north[1] * west[0] > 0.0);
-    }
-}
+mod tests;

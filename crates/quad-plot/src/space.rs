@@ -1,16 +1,13 @@
 //! A space with three axes: trajectories, planes and points in an orthographic view, with shadows on the floor.
-//!
-//! kuva has no 3-D line; this is a box, its axes with ticks, and polylines, drawn as SVG.
 
 use super::axis::Axis;
-use super::chart::Area;
-use super::legend::{Entry, Legend, Sample, draw_marker};
-use super::scene::{BOTTOM, Scene, TOP};
+use super::frame::Area;
+use super::legend::{Entry, Legend, Sample};
+use super::marker::draw_marker;
+pub use super::scene::{Point3, View};
+use super::scene::{Scene, Setup};
 use super::style::Look;
 use super::svg::{Anchor, Svg, TextLook, at};
-
-/// A point in space, in the order of the axes.
-pub type Point3 = [f64; 3];
 
 /// Three axes and what is drawn between them.
 ///
@@ -20,29 +17,11 @@ pub type Point3 = [f64; 3];
 pub struct Space {
     /// Words above the picture. Rich text.
     pub caption: String,
-    pub(super) axes: [Axis; 3],
-    pub(super) view: View,
-    pub(super) equal: bool,
+    axes: [Axis; 3],
+    view: View,
+    equal: bool,
     shadows: bool,
     layers: Vec<Layer>,
-}
-
-/// Direction from which a [`Space`] is seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
-    /// Angle of the eye about the vertical axis from the first axis, degrees.
-    pub azimuth_deg: f64,
-    /// Angle of the eye above the floor, degrees, from 5 to 85.
-    pub elevation_deg: f64,
-}
-
-impl Default for View {
-    fn default() -> Self {
-        Self {
-            azimuth_deg: -55.0,
-            elevation_deg: 24.0,
-        }
-    }
 }
 
 #[derive(Clone, Debug)]
@@ -71,8 +50,11 @@ enum Layer {
 /// Width and greatest height of a picture of its own, and its border, px.
 const PICTURE: (f64, f64) = (520.0, 420.0);
 const BORDER: f64 = 8.0;
+/// Ticks aimed at on each axis.
+const TARGET_TICKS: f64 = 4.5;
 /// Look of shadows on the floor.
 const SHADOW: Look = Look::solid("#c4c4c4", 0.6);
+
 impl Space {
     /// An empty space with axis labels, the third for the vertical axis, which points up.
     pub fn new(x: impl Into<String>, y: impl Into<String>, up: impl Into<String>) -> Self {
@@ -195,16 +177,13 @@ impl Space {
         let top = BORDER + legend.height();
         let free = (PICTURE.0 - 2.0 * BORDER, PICTURE.1);
         // A flat box needs less height than there is.
-        let scene = Scene::new(
-            self,
-            Area {
-                origin: at(BORDER, top),
-                size: free,
-            },
-        );
-        let size = (free.0, scene.height() + TOP + BOTTOM);
+        let whole = Area {
+            origin: at(BORDER, top),
+            size: free,
+        };
+        let size = (free.0, Scene::new(self.setup(), whole).height().min(free.1));
         let mut svg = Svg::new(PICTURE.0, top + size.1 + BORDER);
-        legend.draw(&mut svg, PICTURE.0 / 2.0, BORDER);
+        legend.draw(&mut svg, PICTURE.0 / 2.0, BORDER, (BORDER, PICTURE.0 - BORDER));
         self.draw_in(
             &mut svg,
             Area {
@@ -234,8 +213,8 @@ impl Space {
 
     /// Draws the space inside an area.
     pub(super) fn draw_in(&self, svg: &mut Svg, area: Area) {
-        let scene = Scene::new(self, area);
-        scene.draw_box(svg, &self.axes);
+        let scene = Scene::new(self.setup(), area);
+        scene.draw_box(svg);
         if self.shadows {
             self.draw_shadows(svg, &scene);
         }
@@ -269,8 +248,18 @@ impl Space {
         }
     }
 
-    fn draw_shadows(&self, svg: &mut Svg, scene: &Scene) {
-        let floor = scene.axes[2].min;
+    /// What the box shows.
+    fn setup(&self) -> Setup<'_> {
+        Setup {
+            axes: [0, 1, 2].map(|i| self.axes[i].settle(self.extent(i).into_iter(), true, TARGET_TICKS)),
+            labels: [0, 1, 2].map(|i| self.axes[i].label.as_str()),
+            view: self.view,
+            equal: self.equal,
+        }
+    }
+
+    fn draw_shadows(&self, svg: &mut Svg, scene: &Scene<'_>) {
+        let floor = scene.floor();
         for layer in &self.layers {
             match layer {
                 Layer::Line { points, .. } => {
@@ -288,7 +277,7 @@ impl Space {
     }
 
     /// Values of one axis that it must cover.
-    pub(super) fn extent(&self, axis: usize) -> Vec<f64> {
+    fn extent(&self, axis: usize) -> Vec<f64> {
         let value = |layer: &Layer| -> Vec<f64> {
             match layer {
                 Layer::Line { points, .. } | Layer::Markers { points, .. } => {
@@ -299,5 +288,19 @@ impl Space {
             }
         };
         self.layers.iter().flat_map(value).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A left turn flown from north to west (heading falling, z down) is counter-clockwise from above in the picture as well.
+    #[test]
+    fn exact_a_left_turn_of_a_frame_with_z_down_stays_one() {
+        let north = Space::of_z_down(1.0, 0.0, -2.0);
+        let west = Space::of_z_down(0.0, -1.0, -2.0);
+        assert_eq!((north, west), ([1.0, 0.0, 2.0], [0.0, 1.0, 2.0]));
+        assert!(north[0] * west[1] - north[1] * west[0] > 0.0);
     }
 }

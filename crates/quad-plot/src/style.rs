@@ -110,6 +110,21 @@ pub const fn reference_style() -> Look {
     Look::solid(INK, 1.0).dashed("4 3")
 }
 
+/// A colour between two, `#rrggbb`: the first at `share` 0, the second at 1. What is no colour counts as black.
+pub fn mix(from: &str, to: &str, share: f64) -> String {
+    let share = share.clamp(0.0, 1.0);
+    let channel = |colour: &str, first: usize| -> f64 {
+        let figures = colour.get(first..first + 2).map(|c| u8::from_str_radix(c, 16));
+        f64::from(figures.and_then(Result::ok).unwrap_or(0))
+    };
+    let mixed = [1, 3, 5].map(|k| {
+        let (a, b) = (channel(from, k), channel(to, k));
+        // A share that is no number becomes 0 here.
+        (a + (b - a) * share).round() as u8
+    });
+    format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])
+}
+
 /// The controllers that are compared with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Controller {
@@ -130,6 +145,14 @@ pub const fn controller_style(controller: Controller) -> Look {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_mixed_colours() {
+        assert_eq!(mix("#000000", "#ff8040", 0.0), "#000000");
+        assert_eq!(mix("#000000", "#ff8040", 0.5), "#804020");
+        assert_eq!(mix("#ffffff", ORANGE, 7.0), ORANGE);
+        assert_eq!(mix("", "ä", f64::NAN), "#000000");
+    }
 
     #[test]
     fn prop_levels_differ_in_colour_and_in_dash() {

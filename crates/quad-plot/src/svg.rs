@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
+pub use super::font::FONT_FAMILY;
 use super::style::Look;
 use super::text;
-
-/// Fonts of every picture: the embedded one first, then what viewers have.
-pub const FONT_FAMILY: &str = "DejaVu Sans, Verdana, Helvetica, Arial, sans-serif";
+pub use super::xml::{escape, number};
 
 /// A point of the canvas, px, x to the right and y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,8 +164,27 @@ impl Svg {
     pub fn polygon(&mut self, points: &[Point], fill: &str, outline: Option<&Look>) {
         let edge = outline.map(stroke).unwrap_or_default();
         self.raw(&format!(
-            "<path d=\"{}Z\" fill=\"{fill}\"{edge}/>",
-            path_of(points)
+            "<path d=\"{}Z\" fill=\"{}\"{edge}/>",
+            path_of(points),
+            escape(fill)
+        ));
+    }
+
+    /// Fills what an odd number of these closed curves surround.
+    pub fn region(&mut self, curves: &[Vec<Point>], fill: &str, opacity: f64) {
+        let curves = curves.iter().filter(|curve| curve.len() > 2);
+        let path: String = curves.map(|curve| path_of(curve) + "Z").collect();
+        if path.is_empty() {
+            return;
+        }
+        let faint = if opacity < 1.0 {
+            format!(" fill-opacity=\"{}\"", number(opacity))
+        } else {
+            String::new()
+        };
+        self.raw(&format!(
+            "<path d=\"{path}\" fill=\"{}\" fill-rule=\"evenodd\"{faint}/>",
+            escape(fill)
         ));
     }
 
@@ -175,7 +193,8 @@ impl Svg {
         let edge = outline.map(stroke).unwrap_or_default();
         let (x, y, r) = (number(centre.x), number(centre.y), number(radius));
         self.raw(&format!(
-            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"{edge}/>"
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{}\"{edge}/>",
+            escape(fill)
         ));
     }
 }
@@ -203,31 +222,9 @@ pub fn stroke(look: &Look) -> String {
     out
 }
 
-/// A coordinate with at most two decimals.
-pub fn number(value: f64) -> String {
-    let rounded = (value * 100.0).round() / 100.0;
-    // Adding zero turns −0 into 0.
-    format!("{}", rounded + 0.0)
-}
-
-/// Text made safe for SVG and HTML.
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn exact_numbers_are_short() {
-        assert_eq!(number(1.0), "1");
-        assert_eq!(number(-0.001), "0");
-        assert_eq!(number(2.345_6), "2.35");
-    }
 
     #[test]
     fn exact_one_picture_above_another() {

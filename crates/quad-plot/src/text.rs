@@ -5,8 +5,7 @@
 
 use std::fmt::Write;
 
-use super::raster;
-use super::svg::{escape, number};
+use super::xml::{escape, number};
 
 /// A run of characters in one style.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -133,11 +132,6 @@ pub fn tspans(source: &str, size: f64) -> String {
     out
 }
 
-/// Width of the text in the embedded font at this size, px.
-pub fn width(source: &str, size: f64) -> f64 {
-    raster::text_width(&tspans(source, size), size)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,13 +153,5 @@ mod tests {
             text,
             "a<tspan dy=\"2.2\" font-size=\"7.2\">1</tspan><tspan dy=\"-2.2\">b</tspan>"
         );
-    }
-
-    #[test]
-    fn prop_width_grows_with_the_text_and_scales_with_the_size() {
-        let narrow = width("iii", 10.0);
-        assert!(narrow > 0.0 && width("mmm", 10.0) > narrow);
-        // Glyph advances are proportional to the size; the box is known to well below a hundredth of a pixel.
-        assert!((width("mmm", 20.0) - 2.0 * width("mmm", 10.0)).abs() < 0.05);
     }
 }

@@ -1,6 +1,6 @@
 //! A crossing of the station's field at every level: what it costs ideally and flown, and where each level would go.
 //!
-//! `cargo run --release -p wpt-optim --example crossing`
+//! `cargo run -p wpt-optim --example crossing`
 
 use quad_dynamics::Level;
 use wpt_optim::{Choice, Grid, Problem, ProblemError};

@@ -1,6 +1,6 @@
 //! Level 5 optimised with the help of levels 1 to 4: the nominal crossing in 10 s with two variables.
 //!
-//!     cargo run --release -p wpt-optim --example multi_fidelity
+//!     cargo run -p wpt-optim --example multi_fidelity
 //!
 //! Prints the optimum of each level on the way, and the flights of every level beside those of Nelder and Mead's simplex at level 5
 //! alone. Figure beyond.4 does this from twenty starts.

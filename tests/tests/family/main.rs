@@ -1,6 +1,7 @@
 //! The model family as a whole: nine laws that hold between its members, and one battery of checks that
 //! every member passes, on random vehicles, states and inputs.
 
+mod allocation;
 mod jacobians;
 mod lanes;
 mod law_1_linearisation;

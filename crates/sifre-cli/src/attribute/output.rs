@@ -3,11 +3,10 @@
 use super::{Controllers, Explained, Pair};
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
-use kuva::plot::BarPlot;
-use kuva::render::plots::Plot;
 use quad_dynamics::Feature;
 use quad_plot::figure::Legends;
-use quad_plot::style::{BLUE, Look, Marker};
+use quad_plot::panel::Bar;
+use quad_plot::style::{BLUE, Marker};
 use quad_plot::{Figure, Panel, series_style};
 use scenario::Law;
 use serde_json::{Value, json};
@@ -160,6 +159,11 @@ fn panel(metric: &str, explained: &Explained) -> Panel {
     bars.extend(explained.controllers.iter().map(|c| (change(c), c.adds)));
     let names: Vec<String> = bars.iter().map(|(name, _)| name.clone()).collect();
     let right = names.len() as f64 + 0.5;
+    let coloured = bars.iter().zip(1..).map(|((_, value), k)| Bar {
+        x: f64::from(k),
+        height: *value,
+        colour: BLUE,
+    });
     let points = |value: fn(&Share) -> f64, offset: f64| -> Vec<(f64, f64)> {
         let places = shares.iter().enumerate();
         places.map(|(i, s)| (i as f64 + 1.0 + offset, value(s))).collect()
@@ -168,15 +172,9 @@ fn panel(metric: &str, explained: &Explained) -> Panel {
     Panel::new("", format!("Change of {}", axis_label(metric)))
         .caption(format!("Level {lower} to level {upper}"))
         .x_categories(names)
-        .kuva(move || {
-            let coloured = bars.iter().map(|(name, value)| (name.clone(), *value, BLUE));
-            Plot::Bar(BarPlot::new().with_colored_bars(coloured).with_width(0.5))
-        })
+        .bars("Shapley value", 0.5, coloured)
         .x_range(0.5, right)
         .horizontal(0.0, "")
-        .y_include(0.0)
-        // Bars have no place in a legend of their own.
-        .line("Shapley value", Look::solid(BLUE, 6.0), [(1.0, 0.0), (1.0, 0.0)])
         .markers(
             "alone",
             series_style(1).marked(Marker::Triangle),

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod air;
+mod allocation;
 mod bad_input;
 mod convergence;
 mod dynamic_resolution;

@@ -1,5 +1,6 @@
 //! The problem, its rollouts and its surfaces.
 
+mod allocation;
 mod bad_input;
 mod engine;
 mod failures;

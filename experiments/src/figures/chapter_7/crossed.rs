@@ -7,12 +7,11 @@ use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
+use crate::plot::panel::Cells;
+use crate::plot::style::{ORANGE, mix};
 use crate::plot::{Figure, Panel};
-use kuva::plot::{ColorMap, Heatmap};
-use kuva::render::plots::Plot;
 use quad_dynamics::Level;
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// The matrix.
 pub(super) const FIGURE_7_26: Item = Item {
@@ -63,28 +62,25 @@ fn costs(effort: Effort) -> Result<Vec<Vec<f64>>, ItemError> {
         .collect()
 }
 
-/// White to orange, so that numbers stay legible.
-fn shade(t: f64) -> String {
-    let mix = |to: f64| (255.0 + (to - 255.0) * t.clamp(0.0, 1.0)).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", mix(230.0), mix(159.0), mix(0.0))
+/// White for the least value to orange for the greatest, so that numbers stay legible.
+fn shaded(values: &[Vec<f64>]) -> Vec<Vec<String>> {
+    let all = || values.iter().flatten().copied();
+    let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    let shade = |value: &f64| mix("#ffffff", ORANGE, (value - low) / (high - low));
+    values.iter().map(|row| row.iter().map(shade).collect()).collect()
 }
 
 /// A matrix with its numbers and the values that shade it, the first row at the bottom.
 fn grid(caption: &str, values: &[Vec<f64>], shades: &[Vec<f64>], digits: i32) -> Panel {
+    let edges: Vec<f64> = (0..=values.len()).map(|k| k as f64 + 0.5).collect();
     let mut panel = Panel::new("Flown at level", "Solution of level")
         .caption(caption)
         .x_categories(Level::ALL.map(|l| l.number().to_string()))
-        .equal_aspect();
-    let shades = shades.to_vec();
-    panel = panel
-        .kuva(move || {
-            Plot::Heatmap(
-                Heatmap::new()
-                    .with_data(shades.clone())
-                    .with_x_range(0.5, 5.5)
-                    .with_y_range(0.5, 5.5)
-                    .with_color_map(ColorMap::Custom(Arc::new(shade))),
-            )
+        .equal_aspect()
+        .cells(Cells {
+            x: edges.clone(),
+            y: edges,
+            fills: shaded(shades),
         })
         .x_range(0.5, 5.5)
         .y_range(0.5, 5.5)

@@ -8,12 +8,11 @@ use crate::drawing::Drawing;
 use crate::figures::{glyphs, sweep};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
+use crate::plot::panel::Contours;
 use crate::plot::style::{INK, Look};
 use crate::plot::{Figure, Panel, series_style};
 use crate::station::{NOMINAL_STATION, load_station};
 use ets::Station;
-use kuva::plot::{ColorMap, ContourPlot};
-use kuva::render::plots::Plot;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -42,6 +41,8 @@ const MISSED: [f64; 2] = [0.1725, 0.09];
 const CAUGHT: [f64; 2] = [0.1, 0.09];
 /// Contours of the map, shares of the peak.
 const CONTOURS: [f64; 6] = [0.01, 0.1, 0.3, 0.5, 0.7, 0.9];
+/// Colours of the bands between them, the faintest first.
+const BANDS: [&str; 7] = ["#ffffff", "#fef3e2", "#fee3bd", "#fdc68c", "#fc9a63", "#ec5f42", "#b8241c"];
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let station = load_station(context, NOMINAL_STATION)?;
@@ -103,13 +104,13 @@ fn map(station: &Station) -> Panel {
         .into_iter()
         .map(|[x, y]| (x, y));
     Panel::new("Along *e*_{1}, m", "Along *e*_{2}, m")
-        .kuva(move || {
-            let plot = ContourPlot::new()
-                .with_grid(grid.clone(), xs.clone(), ys.clone())
-                .with_levels(&CONTOURS)
-                .with_filled()
-                .with_colormap(ColorMap::OrangeRed);
-            Plot::Contour(plot)
+        .contours(Contours {
+            x: xs,
+            y: ys,
+            rows: grid,
+            levels: CONTOURS.to_vec(),
+            fills: BANDS.map(str::to_owned).to_vec(),
+            line: Some(Look::solid(INK, 0.8)),
         })
         .line("edge of the sensor", Look::solid(INK, 2.4), outline)
         .x_range(MAP_SPOT[0] - MAP, MAP_SPOT[0] + MAP)

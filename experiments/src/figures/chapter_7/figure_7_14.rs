@@ -5,12 +5,10 @@ use crate::claim::Claim;
 use crate::data::{Cell, DataTable};
 use crate::drawing::{DisplayTable, Drawing};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use crate::plot::style::{BLUE, INK, Look, Marker};
+use crate::plot::panel::Contours;
+use crate::plot::style::{INK, Look, Marker};
 use crate::plot::{Figure, Panel};
-use kuva::plot::{ColorMap, ContourPlot};
-use kuva::render::plots::Plot;
 use quad_dynamics::Level;
-use std::sync::Arc;
 use wpt_optim::{Choice, Minimum, Surface};
 
 /// The figure.
@@ -36,14 +34,14 @@ const CONTOURS: [f64; 8] = [1.15, 1.2, 1.3, 1.5, 2.0, 3.0, 10.0, 30.0];
 
 /// Names and fills of the bands between contours, the cheapest first; the last is the plateau.
 const BANDS: [(&str, &str); 9] = [
-    ("*Φ* below 1.15", "#fbeec2"),
-    ("to 1.2", "#eef5fa"),
-    ("to 1.3", "#dceaf4"),
-    ("to 1.5", "#c8dfee"),
-    ("to 2", "#b1d2e7"),
-    ("to 3", "#97c3df"),
-    ("to 10", "#7bb2d6"),
-    ("to 30", "#5c9fca"),
+    ("*Φ* below 1.15", "#fffbd6"),
+    ("to 1.2", "#f1f7b5"),
+    ("to 1.3", "#cbe8b2"),
+    ("to 1.5", "#94d3ba"),
+    ("to 2", "#5bbdc2"),
+    ("to 3", "#379fc3"),
+    ("to 10", "#3579b3"),
+    ("to 30", "#3a5594"),
     ("above", "#a6a6a6"),
 ];
 
@@ -61,24 +59,20 @@ fn costs(surface: &Surface) -> Vec<f64> {
 fn panel(name: &str, surface: &Surface) -> Panel {
     let minima = surface.minima();
     let (xs, ys) = (surface.first.clone(), surface.second.clone());
-    let grid: Vec<Vec<f64>> = costs(surface)
-        .chunks(xs.len())
-        .map(|row| row.iter().map(|cost| cost.min(CEILING).log10()).collect())
-        .collect();
-    let contours = CONTOURS.map(f64::log10);
-    let shades = bands(&grid);
     let [low, high] = [xs[0], xs[xs.len() - 1]];
+    let contours = Contours {
+        rows: costs(surface)
+            .chunks(xs.len())
+            .map(|row| row.iter().map(|cost| cost.min(CEILING).log10()).collect())
+            .collect(),
+        x: xs,
+        y: ys,
+        levels: CONTOURS.map(f64::log10).to_vec(),
+        fills: BANDS.map(|(_, fill)| fill.to_owned()).to_vec(),
+        line: Some(Look::solid(INK, 0.5)),
+    };
     let panel = Panel::new("*x*_{0}, m", "*x*_{f}, m")
-        .kuva(move || {
-            let plot = ContourPlot::new()
-                .with_grid(grid.clone(), xs.clone(), ys.clone())
-                .with_levels(&contours)
-                .with_filled()
-                .with_colormap(shades.clone())
-                .with_line_color(BLUE)
-                .with_line_width(1.0);
-            Plot::Contour(plot)
-        })
+        .contours(contours)
         .markers("", DOT, minima.iter().map(|m| (m.at[0], m.at[1])))
         .x_range(low, high)
         .y_range(low, high)
@@ -92,19 +86,6 @@ fn panel(name: &str, surface: &Surface) -> Panel {
             format!("{:.3}", m.cost),
         )
     })
-}
-
-/// The fills of the bands as a map from 0 to 1 over the range of a grid, as kuva asks for it.
-fn bands(grid: &[Vec<f64>]) -> ColorMap {
-    let all = || grid.iter().flatten().copied();
-    let low = all().fold(f64::INFINITY, f64::min);
-    let high = all().fold(f64::NEG_INFINITY, f64::max);
-    ColorMap::Custom(Arc::new(move |t| {
-        // A hair up: a contour counts to the band above it.
-        let value = low + t * (high - low) + 1e-9;
-        let below = CONTOURS.iter().filter(|contour| contour.log10() <= value).count();
-        BANDS[below].1.to_owned()
-    }))
 }
 
 /// The bands in the legend.

@@ -7,10 +7,9 @@ use crate::drawing::Drawing;
 use crate::figures::sweep;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
+use crate::plot::panel::Contours;
 use crate::plot::style::{BLUE, GREY, INK, Look, Marker, VERMILION};
 use crate::plot::{Figure, Panel, series_style};
-use kuva::plot::ContourPlot;
-use kuva::render::plots::Plot;
 use optim::Report;
 use optim::test_functions::{HIMMELBLAU_MINIMA, himmelblau};
 
@@ -112,14 +111,13 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
 fn map(triangles: &[Triangle]) -> Panel {
     let axis = sweep(-HALF, HALF, 240);
     let row = |&y: &f64| axis.iter().map(|&x| himmelblau(&[x, y])).collect::<Vec<f64>>();
-    let values: Vec<Vec<f64>> = axis.iter().map(row).collect();
-    let mut panel = Panel::new("*x*", "*y*").kuva(move || {
-        let plot = ContourPlot::new()
-            .with_grid(values.clone(), axis.clone(), axis.clone())
-            .with_levels(&CONTOURS)
-            .with_line_color(GREY)
-            .with_line_width(0.7);
-        Plot::Contour(plot)
+    let mut panel = Panel::new("*x*", "*y*").contours(Contours {
+        rows: axis.iter().map(row).collect(),
+        x: axis.clone(),
+        y: axis.clone(),
+        levels: CONTOURS.to_vec(),
+        fills: Vec::new(),
+        line: Some(Look::solid(GREY, 0.7)),
     });
     for (i, triangle) in triangles.iter().enumerate() {
         let (label, look) = match i {

@@ -8,11 +8,10 @@ use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
+use crate::plot::panel;
 use crate::plot::space::View;
 use crate::plot::style::{GREY, INK, Look, Marker};
 use crate::plot::{Figure, Panel, Space, level_name, level_style};
-use kuva::plot::BarPlot;
-use kuva::render::plots::Plot;
 use quad_dynamics::Level;
 use std::num::NonZeroU64;
 use wpt_optim::{Histories, History, Problem};
@@ -279,16 +278,14 @@ struct Bar {
 
 /// A bar per level, in the level's colour, with its words above, on an axis for bars up to `top`.
 fn bars(label: &str, bars: &[Bar], top: f64) -> Panel {
-    let heights: Vec<f64> = bars.iter().map(|bar| bar.height).collect();
+    let coloured = Level::ALL.iter().zip(bars).map(|(level, bar)| panel::Bar {
+        x: f64::from(level.number()),
+        height: bar.height,
+        colour: level_style(level.number()).colour,
+    });
     let panel = Panel::new("Level", label)
         .x_categories(Level::ALL.map(|l| l.number().to_string()))
-        .kuva(move || {
-            let bars = Level::ALL.iter().zip(&heights).map(|(level, &height)| {
-                let n = level.number();
-                (n.to_string(), height, level_style(n).colour)
-            });
-            Plot::Bar(BarPlot::new().with_colored_bars(bars).with_width(0.65))
-        })
+        .bars("", 0.65, coloured)
         .x_range(0.4, 5.6)
         .y_range(0.0, 1.15 * top);
     bars.iter().enumerate().fold(panel, |panel, (i, bar)| {

@@ -1,6 +1,6 @@
 //! No heap in a step: derivative and RK4 step of every model and scalar, counted by the allocator itself.
 //!
-//! A test binary of its own, since the counting allocator replaces the global one.
+//! Counted for the measuring thread alone, so tests beside it change nothing.
 
 use allocation_counter::measure;
 use family_tests::{Family, FamilyFive, FamilyFour, FamilyMechanistic, FamilyOne, FamilyThree, FamilyTwo};

@@ -1,6 +1,6 @@
 //! No heap in the loop: counted by the allocator itself.
 //!
-//! A test binary of its own, since the counting allocator replaces the global one.
+//! Counted for the measuring thread alone, so tests beside it change nothing.
 
 use allocation_counter::measure;
 use quad_dynamics::{Level, Vehicle};

@@ -1,4 +1,4 @@
-//! No heap in a rollout's loop: a binary of its own, since the counting allocator replaces the global one.
+//! No heap in a rollout's loop, counted for the measuring thread alone.
 
 use allocation_counter::measure;
 use quad_dynamics::Level;
