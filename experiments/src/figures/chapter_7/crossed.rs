@@ -65,7 +65,10 @@ fn costs(effort: Effort) -> Result<Vec<Vec<f64>>, ItemError> {
 /// White for the least value to orange for the greatest, so that numbers stay legible.
 fn shaded(values: &[Vec<f64>]) -> Vec<Vec<String>> {
     let all = || values.iter().flatten().copied();
-    let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
+    let (low, high) = (
+        all().fold(f64::INFINITY, f64::min),
+        all().fold(f64::NEG_INFINITY, f64::max),
+    );
     let shade = |value: &f64| mix("#ffffff", ORANGE, (value - low) / (high - low));
     values.iter().map(|row| row.iter().map(shade).collect()).collect()
 }

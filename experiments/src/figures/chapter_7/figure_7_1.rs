@@ -42,7 +42,9 @@ const CAUGHT: [f64; 2] = [0.1, 0.09];
 /// Contours of the map, shares of the peak.
 const CONTOURS: [f64; 6] = [0.01, 0.1, 0.3, 0.5, 0.7, 0.9];
 /// Colours of the bands between them, the faintest first.
-const BANDS: [&str; 7] = ["#ffffff", "#fef3e2", "#fee3bd", "#fdc68c", "#fc9a63", "#ec5f42", "#b8241c"];
+const BANDS: [&str; 7] = [
+    "#ffffff", "#fef3e2", "#fee3bd", "#fdc68c", "#fc9a63", "#ec5f42", "#b8241c",
+];
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let station = load_station(context, NOMINAL_STATION)?;
