@@ -7,7 +7,8 @@
 use divan::{Bencher, black_box};
 use nalgebra::Vector3;
 use quad_dynamics::{
-    Input, Level, Level1, Level2, Level3, Level4, Level5, Phenomenon, PhenomenonSet, QuadrotorModel, Vehicle,
+    Input, Level, Level1, Level2, Level3, Level4, Level5, LevelModel, Phenomenon, PhenomenonSet,
+    QuadrotorModel, Vehicle,
 };
 use quad_math::{Batch, F32x8, F64x4, Real, constant, rk4_step};
 use quad_ndi::{C1, C3, Controller, LoopState, Reference, Settings, closed_loop_step};
@@ -27,18 +28,16 @@ const VEHICLES: usize = 64;
 const STEP_S: f64 = 1e-3;
 
 /// What belongs to a level by default, but for voltage sag: level 5 as the figures fly it.
-fn parts(level: Option<Level>) -> PhenomenonSet {
-    level.map_or_else(PhenomenonSet::none, |l| {
-        l.phenomena().without(Phenomenon::VoltageSag)
-    })
+fn parts(level: Level) -> PhenomenonSet {
+    level.phenomena().without(Phenomenon::VoltageSag)
 }
 
-fn model<R: Real, M: QuadrotorModel<R>>() -> M {
+fn model<R: Real, M: LevelModel<R>>() -> M {
     M::build(&Vehicle::qball_x4(), &parts(M::LEVEL)).expect("the nominal vehicle flies at every level")
 }
 
 /// Input near hover that keeps the vehicle moving.
-fn input<R: Real, M: QuadrotorModel<R>>(model: &M) -> Input<R> {
+fn input<R: Real, M: LevelModel<R>>(model: &M) -> Input<R> {
     let hover = model.hover(Vector3::zeros(), R::zero()).input;
     let nudge = [1e-5, -1e-5, 2e-5, -1e-5];
     Input {
@@ -47,7 +46,7 @@ fn input<R: Real, M: QuadrotorModel<R>>(model: &M) -> Input<R> {
     }
 }
 
-fn derivative<R: Real, M: QuadrotorModel<R>>(bencher: Bencher) {
+fn derivative<R: Real, M: LevelModel<R>>(bencher: Bencher) {
     let model: M = model();
     let input = input(&model);
     let start = model.hover(Vector3::zeros(), constant(0.3)).state;
@@ -62,7 +61,7 @@ fn derivative<R: Real, M: QuadrotorModel<R>>(bencher: Bencher) {
     });
 }
 
-fn step<R: Real, M: QuadrotorModel<R>>(bencher: Bencher) {
+fn step<R: Real, M: LevelModel<R>>(bencher: Bencher) {
     let model: M = model();
     let input = input(&model);
     let start = model.hover(Vector3::zeros(), constant(0.3)).state;
@@ -75,7 +74,7 @@ fn step<R: Real, M: QuadrotorModel<R>>(bencher: Bencher) {
     });
 }
 
-fn closed_loop<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(bencher: Bencher, controller: C) {
+fn closed_loop<R: Real, M: LevelModel<R>, C: Controller<R>>(bencher: Bencher, controller: C) {
     let model: M = model();
     let hover = model.hover(Vector3::zeros(), R::zero());
     let start = LoopState {

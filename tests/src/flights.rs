@@ -86,7 +86,7 @@ pub fn draw(vehicle: impl Strategy<Value = Vehicle>) -> impl Strategy<Value = Dr
                 snapshot: Snapshot {
                     body,
                     rotors,
-                    charge_drawn: discharge * capacity,
+                    charge_drawn: Some(discharge * capacity),
                 },
                 input: Input {
                     commands: shares.map(|(.., u)| u * high),

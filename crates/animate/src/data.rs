@@ -8,6 +8,7 @@ use crate::error::AnimateError;
 use crate::scene::{Kind, LEVEL_COLOURS, Scene, SceneAgent};
 use crate::view::View;
 use ets::{Aperture, Station};
+use quad_dynamics::Level;
 use quad_kinematics::EulerAngles;
 use serde::Serialize;
 
@@ -20,8 +21,8 @@ pub(crate) struct Data {
     /// Instants, s.
     t: Vec<f64>,
     agents: Vec<Agent>,
-    /// Colours of levels 1 to 5.
-    colours: [&'static str; 5],
+    /// Colours of the levels, lowest first.
+    colours: [&'static str; Level::ALL.len()],
     #[serde(flatten)]
     view: View,
 }
@@ -278,7 +279,9 @@ fn levels(columns: &Columns<'_>, agent: &str) -> Result<Option<Vec<u8>>, Animate
     let Some(column) = columns.get(&channel) else {
         return Ok(None);
     };
-    let level = |(k, value): (usize, f64)| match (1..=5).find(|&level| f64::from(level) == value) {
+    let numbers = Level::ALL.map(Level::number);
+    let level = |(k, value): (usize, f64)| match numbers.into_iter().find(|&level| f64::from(level) == value)
+    {
         Some(level) => Ok(level),
         None => Err(AnimateError::BadLevel {
             channel: channel.clone(),

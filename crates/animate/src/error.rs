@@ -1,5 +1,7 @@
 //! Why a recording can't be animated.
 
+use quad_dynamics::Level;
+
 /// Why a recording can't be animated.
 #[derive(Debug, thiserror::Error)]
 pub enum AnimateError {
@@ -39,7 +41,7 @@ pub enum AnimateError {
         value: f64,
     },
     /// A level that there is not.
-    #[error("channel \"{channel}\" is {value} at {time_s} s: levels are 1 to 5")]
+    #[error("channel \"{channel}\" is {value} at {time_s} s: levels are {} to {}", Level::LOWEST.number(), Level::HIGHEST.number())]
     BadLevel {
         /// The channel.
         channel: String,

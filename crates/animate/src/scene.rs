@@ -1,12 +1,22 @@
 //! What the agents of a recording look like.
 
 use ets::Station;
+use quad_dynamics::Level;
 
 /// Arm of the quadrotor that is drawn where nothing else is said, m: the Qball-X4's (Quanser, *Qball-X4 User Manual*).
 pub const NOMINAL_ARM_M: f64 = 0.2;
 
-/// Colours of levels 1 to 5: those of Okabe and Ito that the figures use, safe for colour-blind readers.
-pub const LEVEL_COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"];
+/// Colours of the levels, lowest first: those of Okabe and Ito that the figures use, safe for colour-blind readers.
+pub const LEVEL_COLOURS: [&str; Level::ALL.len()] = {
+    const PALETTE: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+    let mut colours = [""; Level::ALL.len()];
+    let mut i = 0;
+    while i < colours.len() {
+        colours[i] = PALETTE[i % PALETTE.len()];
+        i += 1;
+    }
+    colours
+};
 
 /// What is to be seen: a title and the agents.
 #[derive(Clone, Debug, Default, PartialEq)]

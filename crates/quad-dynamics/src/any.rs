@@ -1,75 +1,25 @@
 //! A quadrotor whose level is chosen, and may be changed, at run time.
 
-use crate::model::StateOf;
 use crate::{
-    BuildError, Flight, Input, Kick, Level, Level1, Level2, Level3, Level4, Level5, PhenomenonSet,
-    QuadrotorModel, Snapshot, Vehicle,
+    AnyQuadrotor, BuildError, Flight, InFlight, Input, Kick, Level, LevelModel, PhenomenonSet,
+    QuadrotorModel, RigidBodyState, Snapshot, Vehicle, WithLevel, WithQuadrotor,
 };
 use nalgebra::Vector3;
 use quad_math::{FixedStep, Flat, Real};
 
-/// A model together with the state it is in.
-#[derive(Clone, Debug)]
-pub struct InFlight<R: Real, M: QuadrotorModel<R>> {
-    /// The model.
-    pub model: M,
-    /// Its state.
-    pub state: StateOf<R, M>,
+/// Level hover of a vehicle, for any level.
+struct Hovering<'a, R: Real> {
+    vehicle: &'a Vehicle,
+    phenomena: &'a PhenomenonSet,
+    position: Vector3<R>,
+    yaw: R,
 }
 
-/// A flying quadrotor of any level: model and state in one value, so that they can't be mismatched.
-#[derive(Clone, Debug)]
-pub enum AnyQuadrotor<R: Real> {
-    /// Level 1.
-    One(InFlight<R, Level1<R>>),
-    /// Level 2.
-    Two(InFlight<R, Level2<R>>),
-    /// Level 3.
-    Three(InFlight<R, Level3<R>>),
-    /// Level 4.
-    Four(InFlight<R, Level4<R>>),
-    /// Level 5.
-    Five(InFlight<R, Level5<R>>),
-}
+impl<R: Real> WithLevel<R> for Hovering<'_, R> {
+    type Out = Result<AnyQuadrotor<R>, BuildError>;
 
-/// The same expression for whichever level is inside.
-macro_rules! each_level {
-    ($quadrotor:expr, $inner:ident => $body:expr) => {
-        match $quadrotor {
-            AnyQuadrotor::One($inner) => $body,
-            AnyQuadrotor::Two($inner) => $body,
-            AnyQuadrotor::Three($inner) => $body,
-            AnyQuadrotor::Four($inner) => $body,
-            AnyQuadrotor::Five($inner) => $body,
-        }
-    };
-}
-
-impl<R: Real, M: QuadrotorModel<R>> InFlight<R, M> {
-    /// A vehicle in level hover at a position in W, m, heading ψ, rad.
-    ///
-    /// # Errors
-    /// As [`QuadrotorModel::build`].
-    pub fn hovering(
-        vehicle: &Vehicle,
-        phenomena: &PhenomenonSet,
-        position: Vector3<R>,
-        yaw: R,
-    ) -> Result<Self, BuildError> {
-        let model = M::build(vehicle, phenomena)?;
-        let state = model.hover(position, yaw).state;
-        Ok(Self { model, state })
-    }
-
-    fn adopting(
-        vehicle: &Vehicle,
-        phenomena: &PhenomenonSet,
-        snapshot: &Snapshot<R>,
-        input: &Input<R>,
-    ) -> Result<Self, BuildError> {
-        let model = M::build(vehicle, phenomena)?;
-        let state = model.adopt(snapshot, input);
-        Ok(Self { model, state })
+    fn with<M: LevelModel<R>>(self) -> Self::Out {
+        InFlight::hovering(self.vehicle, self.phenomena, self.position, self.yaw).map(M::any)
     }
 }
 
@@ -85,12 +35,11 @@ impl<R: Real> AnyQuadrotor<R> {
         position: Vector3<R>,
         yaw: R,
     ) -> Result<Self, BuildError> {
-        Ok(match level {
-            Level::One => Self::One(InFlight::hovering(vehicle, phenomena, position, yaw)?),
-            Level::Two => Self::Two(InFlight::hovering(vehicle, phenomena, position, yaw)?),
-            Level::Three => Self::Three(InFlight::hovering(vehicle, phenomena, position, yaw)?),
-            Level::Four => Self::Four(InFlight::hovering(vehicle, phenomena, position, yaw)?),
-            Level::Five => Self::Five(InFlight::hovering(vehicle, phenomena, position, yaw)?),
+        level.visit(Hovering {
+            vehicle,
+            phenomena,
+            position,
+            yaw,
         })
     }
 
@@ -105,13 +54,9 @@ impl<R: Real> AnyQuadrotor<R> {
         snapshot: &Snapshot<R>,
         input: &Input<R>,
     ) -> Result<Self, BuildError> {
-        Ok(match level {
-            Level::One => Self::One(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
-            Level::Two => Self::Two(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
-            Level::Three => Self::Three(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
-            Level::Four => Self::Four(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
-            Level::Five => Self::Five(InFlight::adopting(vehicle, phenomena, snapshot, input)?),
-        })
+        let mut quadrotor = Self::hovering(level, vehicle, phenomena, Vector3::zeros(), R::zero())?;
+        quadrotor.adopt(snapshot, input);
+        Ok(quadrotor)
     }
 
     /// The same flight continued at another level, without a jump in what both levels have: position,
@@ -129,15 +74,19 @@ impl<R: Real> AnyQuadrotor<R> {
         Self::from_snapshot(level, vehicle, phenomena, &self.snapshot(input), input)
     }
 
+    /// Does something with the quadrotor, whatever its level.
+    #[inline(always)]
+    pub fn visit<V: WithQuadrotor<R>>(&mut self, visitor: V) -> V::Out {
+        each_level!(self, q => visitor.with(q))
+    }
+
     /// The level.
+    #[inline]
     pub fn level(&self) -> Level {
-        match self {
-            Self::One(_) => Level::One,
-            Self::Two(_) => Level::Two,
-            Self::Three(_) => Level::Three,
-            Self::Four(_) => Level::Four,
-            Self::Five(_) => Level::Five,
+        fn level<R: Real, M: LevelModel<R>>(_: &InFlight<R, M>) -> Level {
+            M::LEVEL
         }
+        each_level!(self, q => level(q))
     }
 
     /// Flies one step of `h` seconds with the input held.
@@ -212,5 +161,23 @@ impl<R: Real> AnyQuadrotor<R> {
     /// As [`Self::from_snapshot`] with the model that is here already: nothing is built, so nothing can fail.
     pub fn adopt(&mut self, snapshot: &Snapshot<R>, input: &Input<R>) {
         each_level!(self, q => q.state = q.model.adopt(snapshot, input));
+    }
+
+    /// The rigid body of its state, where the level has one in body axes; `None` at level 1.
+    pub fn rigid_body(&mut self) -> Option<&mut RigidBodyState<R>> {
+        fn of<R: Real, M: QuadrotorModel<R>>(q: &mut InFlight<R, M>) -> Option<&mut RigidBodyState<R>> {
+            M::rigid_body(&mut q.state)
+        }
+        each_level!(self, q => of(q))
+    }
+
+    /// Natural sizes of the states of rotors and supply: [`QuadrotorModel::own_scales`].
+    pub fn own_scales(&self) -> Vec<R> {
+        each_level!(self, q => q.model.own_scales())
+    }
+
+    /// An upper bound of the fastest pole of its rotors, rad/s: [`QuadrotorModel::fastest_pole`].
+    pub fn fastest_pole(&self) -> R {
+        each_level!(self, q => q.model.fastest_pole())
     }
 }

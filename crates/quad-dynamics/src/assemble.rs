@@ -2,101 +2,53 @@
 
 mod rotors;
 
+use crate::family::{FamilyRotor, FamilySupply};
 use crate::quadrotor::{CommandLimits, CurrentDraw, Quadrotor, RotorSet, SpinningRotors};
+use crate::trim::Trim;
 use crate::vehicle::Vehicle;
 use crate::{
-    Blockage, BuildError, Capabilities, Drag, GroundEffect, Level, ModelName, Phenomenon, PhenomenonSet,
-    RigidBody, RotorGeometry,
+    Blockage, BuildError, Drag, GroundEffect, Phenomenon, PhenomenonSet, QuadrotorModel, RigidBody,
+    RotorGeometry,
 };
 use nalgebra::Matrix3;
 use quad_math::{Real, constant};
-use quad_rotor::{Battery, BatteryState, ConstantVoltage, IdealRotor, RotorModel, SpinUp, Supply};
+use quad_rotor::{ConstantVoltage, IdealRotor};
 use rotors::{ideal, propeller, stiff, zero_thrust_offset};
-
-/// A rotor model with a place in the family.
-pub trait FamilyRotor<R: Real>: RotorModel<R> {
-    /// The supply that goes with it.
-    type Supply: FamilySupply<R>;
-
-    /// The level it makes; `None` for the mechanistic vehicle.
-    const LEVEL: Option<Level>;
-
-    /// The same rotor over `f64`, in which trims are solved.
-    type OverF64: FamilyRotor<f64>;
-
-    /// Whether its thrust depends on the battery voltage.
-    const FEELS_VOLTAGE: bool;
-
-    /// The rotor of a vehicle.
-    ///
-    /// # Errors
-    /// If the vehicle lacks a group of parameters.
-    fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError>;
-
-    /// The supply of a vehicle, with or without voltage sag.
-    ///
-    /// # Errors
-    /// If the vehicle lacks a group of parameters.
-    fn supply(vehicle: &Vehicle<R>, sag: bool) -> Result<Self::Supply, BuildError>;
-
-    /// The rotor thrusts, N, where the model has them as its only states.
-    #[inline(always)]
-    fn measured_thrusts(_rotors: &[Self::State; 4]) -> Option<[R; 4]> {
-        None
-    }
-}
-
-/// A supply whose charge can be carried over to another level.
-pub trait FamilySupply<R: Real>: Supply<R> {
-    /// Charge drawn, Ah; zero for a stiff supply.
-    fn charge_drawn(state: &Self::State) -> R;
-
-    /// The state with this charge drawn, Ah.
-    fn with_charge_drawn(charge_drawn: R) -> Self::State;
-}
-
-/// The charge drawn lives in the battery's state.
-impl<R: Real> FamilySupply<R> for Battery<R> {
-    fn charge_drawn(state: &BatteryState<R>) -> R {
-        state.charge_drawn
-    }
-
-    fn with_charge_drawn(charge_drawn: R) -> BatteryState<R> {
-        BatteryState { charge_drawn }
-    }
-}
-
-/// A stiff supply has no charge to remember.
-impl<R: Real> FamilySupply<R> for ConstantVoltage<R> {
-    fn charge_drawn((): &()) -> R {
-        R::zero()
-    }
-
-    fn with_charge_drawn(_charge_drawn: R) {}
-}
 
 impl<R: Real> RigidBody<R> {
     /// The rigid body of a vehicle.
     pub fn of(vehicle: &Vehicle) -> Self {
-        Self::with(vehicle, &vehicle.map(constant))
+        Self::with(&vehicle.map(constant))
     }
 
-    /// The rigid body of a vehicle, its numbers given over this scalar too.
-    pub(crate) fn with(vehicle: &Vehicle, parameters: &Vehicle<R>) -> Self {
-        let nominal = vehicle.airframe.inertia;
-        // A validated vehicle has a positive definite inertia; an unvalidated one gets NaN, not a panic.
-        let inverse = nominal.try_inverse().unwrap_or_else(|| nominal.map(|_| f64::NAN));
-        let inverse: Matrix3<R> = inverse.map(constant);
-        let airframe = &parameters.airframe;
-        // d(I⁻¹) = −I⁻¹ dI I⁻¹: the difference has the value zero, and the derivatives of the inertia.
-        let difference = airframe.inertia - nominal.map(constant::<R>);
+    /// The rigid body of a vehicle whose numbers are over this scalar.
+    pub(crate) fn with(vehicle: &Vehicle<R>) -> Self {
+        let airframe = &vehicle.airframe;
         Self {
             mass: airframe.mass,
             inertia: airframe.inertia,
-            inertia_inverse: inverse - inverse * difference * inverse,
-            gravity: parameters.environment.gravity,
+            inertia_inverse: inverse(&airframe.inertia),
+            gravity: vehicle.environment.gravity,
         }
     }
+}
+
+/// The inverse by cofactors, over any scalar. Not finite where the matrix is singular, which a validated inertia is not.
+fn inverse<R: Real>(m: &Matrix3<R>) -> Matrix3<R> {
+    let minor = |a: [usize; 2], b: [usize; 2]| m[(a[0], a[1])] * m[(b[0], b[1])];
+    let cofactors = Matrix3::new(
+        minor([1, 1], [2, 2]) - minor([2, 1], [1, 2]),
+        minor([0, 2], [2, 1]) - minor([2, 2], [0, 1]),
+        minor([0, 1], [1, 2]) - minor([1, 1], [0, 2]),
+        -(minor([1, 0], [2, 2]) - minor([2, 0], [1, 2])),
+        minor([0, 0], [2, 2]) - minor([2, 0], [0, 2]),
+        minor([0, 2], [1, 0]) - minor([1, 2], [0, 0]),
+        minor([1, 0], [2, 1]) - minor([2, 0], [1, 1]),
+        minor([0, 1], [2, 0]) - minor([2, 1], [0, 0]),
+        minor([0, 0], [1, 1]) - minor([1, 0], [0, 1]),
+    );
+    let determinant = m.m11 * cofactors.m11 + m.m12 * cofactors.m21 + m.m13 * cofactors.m31;
+    cofactors.map(|cofactor| cofactor / determinant)
 }
 
 impl<R: Real> RotorGeometry<R> {
@@ -144,36 +96,36 @@ impl<R: Real> RotorSet<R, IdealRotor<R>, ConstantVoltage<R>> {
     }
 }
 
-/// What a rotor model brings along for phenomena (the rigid body is non-linear here).
-fn capabilities<R: Real, M: FamilyRotor<R>>() -> Capabilities {
-    Capabilities {
-        non_linear_rigid_body: true,
-        separate_spin_up: M::SPIN_UP == SpinUp::Separate,
-        feels_voltage: M::FEELS_VOLTAGE,
-    }
+/// The trim of a quadrotor with this rotor.
+pub(crate) fn trim<R: Real, M: FamilyRotor<R>>(
+    vehicle: &Vehicle,
+    phenomena: &PhenomenonSet,
+) -> Result<Trim, BuildError> {
+    let has = |phenomenon| phenomena.contains(phenomenon);
+    BuildError::check_phenomena(M::NAME, phenomena, Quadrotor::<R, M, M::Supply>::CAPABILITIES)?;
+    let rotors = rotor_set::<f64, M::OverF64>(vehicle, phenomena)?;
+    let blockage = has(Phenomenon::Blockage)
+        .then(|| Blockage::<f64>::of(vehicle))
+        .transpose()?;
+    let lift = vehicle.weight() / (1.0 - blockage.map_or(0.0, |b| b.share_in_hover()));
+    rotors.trim(vehicle, M::NAME, has(Phenomenon::InputLimits), lift)
 }
 
+/// The model of a vehicle with this rotor.
 pub(crate) fn quadrotor<R, M, S>(
-    vehicle: &Vehicle,
     parameters: &Vehicle<R>,
     phenomena: &PhenomenonSet,
+    trim: &Trim,
 ) -> Result<Quadrotor<R, M, S>, BuildError>
 where
     R: Real,
     M: FamilyRotor<R, Supply = S>,
     S: FamilySupply<R>,
 {
-    let model = ModelName(M::LEVEL);
-    BuildError::check_phenomena(model, phenomena, capabilities::<R, M>())?;
     let has = |phenomenon| phenomena.contains(phenomenon);
-    let trimmed = rotor_set::<f64, M::OverF64>(vehicle, phenomena)?;
-    let blockage = has(Phenomenon::Blockage)
-        .then(|| Blockage::<f64>::of(vehicle))
-        .transpose()?;
-    let lift = vehicle.weight() / (1.0 - blockage.map_or(0.0, |b| b.share_in_hover()));
-    let hover = trimmed.hover_commands(vehicle, model, has(Phenomenon::InputLimits), lift)?;
+    BuildError::check_phenomena(M::NAME, phenomena, Quadrotor::<R, M, S>::CAPABILITIES)?;
     Ok(Quadrotor {
-        body: RigidBody::with(vehicle, parameters),
+        body: RigidBody::with(parameters),
         rotor_set: rotor_set::<R, M>(parameters, phenomena)?,
         drag: has(Phenomenon::Drag).then(|| drag(parameters)).transpose()?,
         spinning: spinning(parameters, phenomena)?,
@@ -184,7 +136,7 @@ where
             .then(|| Blockage::with(parameters))
             .transpose()?,
         phenomena: phenomena.clone(),
-        hover_commands: hover.map(constant),
+        hover_commands: trim.commands.map(constant),
     })
 }
 

@@ -1,6 +1,6 @@
 //! Why a model can't be built.
 
-use crate::{Capabilities, Level, Phenomenon, PhenomenonSet, Prerequisite, VehicleError};
+use crate::{Capabilities, Phenomenon, PhenomenonSet, Prerequisite, VehicleError};
 
 /// Why a vehicle can't be flown at a level with the phenomena asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -12,7 +12,7 @@ pub enum BuildError {
     #[error("{model} can't have {phenomenon}: it needs {prerequisite}")]
     UnmetPrerequisite {
         /// The model that was to have it.
-        model: ModelName,
+        model: &'static str,
         /// The phenomenon.
         phenomenon: Phenomenon,
         /// What it needs.
@@ -26,7 +26,7 @@ pub enum BuildError {
         /// The vehicle's name.
         vehicle: String,
         /// The model.
-        model: ModelName,
+        model: &'static str,
         /// The rotor, counted from 1.
         rotor: usize,
         /// Raw PWM that hover needs; NaN if the rotor model has no answer.
@@ -41,7 +41,7 @@ pub enum BuildError {
 impl BuildError {
     /// Checks that a model has what these phenomena need.
     pub(crate) fn check_phenomena(
-        model: ModelName,
+        model: &'static str,
         phenomena: &PhenomenonSet,
         capabilities: Capabilities,
     ) -> Result<(), Self> {
@@ -52,19 +52,6 @@ impl BuildError {
                 phenomenon,
                 prerequisite: phenomenon.prerequisite(),
             }),
-        }
-    }
-}
-
-/// How messages name a model: its level, or the mechanistic vehicle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ModelName(pub Option<Level>);
-
-impl std::fmt::Display for ModelName {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.0 {
-            Some(level) => level.fmt(f),
-            None => f.write_str("the mechanistic vehicle"),
         }
     }
 }

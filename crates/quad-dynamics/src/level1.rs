@@ -13,9 +13,10 @@
 
 use crate::model::RotorSnapshot;
 use crate::quadrotor::{CommandLimits, RotorSet};
+use crate::trim::Trim;
 use crate::{
-    BuildError, Capabilities, Flight, Hover, Input, Kick, Level, ModelName, Phenomenon, PhenomenonSet,
-    QuadrotorModel, RigidBody, RigidBodyState, Snapshot, Vehicle,
+    BuildError, Capabilities, Flight, Hover, Input, Kick, Phenomenon, PhenomenonSet, QuadrotorModel,
+    RigidBody, RigidBodyState, Snapshot, Vehicle,
 };
 use nalgebra::Vector3;
 use quad_kinematics::{EulerAngles, EulerRates};
@@ -113,29 +114,40 @@ impl<R: Real> System<R> for Level1<R> {
 }
 
 impl<R: Real> QuadrotorModel<R> for Level1<R> {
-    const LEVEL: Option<Level> = Some(Level::One);
+    const NAME: &'static str = "level 1";
 
-    fn build_with(
-        vehicle: &Vehicle,
+    const CAPABILITIES: Capabilities = Capabilities {
+        non_linear_rigid_body: false,
+        separate_spin_up: false,
+        feels_voltage: false,
+        has_battery: false,
+    };
+
+    fn trim(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Trim, BuildError> {
+        BuildError::check_phenomena(Self::NAME, phenomena, Self::CAPABILITIES)?;
+        let is_limited = phenomena.contains(Phenomenon::InputLimits);
+        RotorSet::<f64, IdealRotor<f64>, ConstantVoltage<f64>>::linear(vehicle, None).trim(
+            vehicle,
+            Self::NAME,
+            is_limited,
+            vehicle.weight(),
+        )
+    }
+
+    fn build_trimmed(
         parameters: &Vehicle<R>,
         phenomena: &PhenomenonSet,
+        trim: &Trim,
     ) -> Result<Self, BuildError> {
-        BuildError::check_phenomena(ModelName(Self::LEVEL), phenomena, Capabilities::of(Level::One))?;
+        BuildError::check_phenomena(Self::NAME, phenomena, Self::CAPABILITIES)?;
         let limits = phenomena
             .contains(Phenomenon::InputLimits)
             .then(|| CommandLimits::with(parameters));
-        let parts = RotorSet::<f64, IdealRotor<f64>, ConstantVoltage<f64>>::linear(vehicle, None);
-        let hover = parts.hover_commands(
-            vehicle,
-            ModelName(Self::LEVEL),
-            limits.is_some(),
-            vehicle.weight(),
-        )?;
         Ok(Self {
-            body: RigidBody::with(vehicle, parameters),
+            body: RigidBody::with(parameters),
             rotor_set: RotorSet::<R, IdealRotor<R>, ConstantVoltage<R>>::linear(parameters, limits),
             phenomena: phenomena.clone(),
-            hover_commands: hover.map(quad_math::constant),
+            hover_commands: trim.commands.map(quad_math::constant),
         })
     }
 
@@ -165,7 +177,7 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
             rotors: self
                 .rotor_outputs(input)
                 .map(|output| RotorSnapshot { output, rate: still }),
-            charge_drawn: R::zero(),
+            charge_drawn: None,
         }
     }
 
@@ -205,6 +217,18 @@ impl<R: Real> QuadrotorModel<R> for Level1<R> {
 
     fn phenomena(&self) -> &PhenomenonSet {
         &self.phenomena
+    }
+
+    fn rigid_body(_state: &mut LinearState<R>) -> Option<&mut RigidBodyState<R>> {
+        None
+    }
+
+    fn own_scales(&self) -> Vec<R> {
+        Vec::new()
+    }
+
+    fn fastest_pole(&self) -> R {
+        R::zero()
     }
 }
 

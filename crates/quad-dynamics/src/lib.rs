@@ -78,12 +78,16 @@
 //! lifts, the reverse restricts, and `restrict(lift(x)) = x` between neighbours, headings taken within one
 //! turn. [`AnyQuadrotor::at_level`] does both.
 
+#[macro_use]
+mod level;
+
 mod any;
-pub mod assemble;
+mod assemble;
 mod blockage;
 mod drag;
 mod dryden;
 mod error;
+mod family;
 mod forces;
 mod ground_effect;
 mod gyroscopic;
@@ -102,28 +106,31 @@ mod tests;
 mod trim;
 pub mod vehicle;
 
-pub use any::{AnyQuadrotor, InFlight};
 pub use blockage::Blockage;
 pub use drag::Drag;
 pub use dryden::{
     Dryden, DrydenNoise, DrydenRotation, DrydenRotationNoise, DrydenRotationState, DrydenState, GustStep,
 };
-pub use error::{BuildError, ModelName};
+pub use error::BuildError;
+pub use family::{FamilyRotor, FamilySupply};
 pub use forces::RotorGeometry;
 pub use ground_effect::GroundEffect;
 pub use gyroscopic::gyroscopic_torque;
+pub use level::{
+    AnyQuadrotor, Level, Level2, Level3, Level4, Level5, LevelModel, NoSuchLevel, WithLevel, WithQuadrotor,
+};
 pub use level1::{Level1, LinearRate, LinearState};
-pub use model::{Flight, Hover, Input, Level, NoSuchLevel, QuadrotorModel, RotorSnapshot, Snapshot, StateOf};
+pub use model::{Flight, Hover, InFlight, Input, QuadrotorModel, RotorSnapshot, Snapshot, StateOf};
 pub use phenomenon::{Capabilities, Phenomenon, PhenomenonSet, Prerequisite};
 pub use process_noise::{Kick, ProcessNoise};
 pub use quadrotor::{
-    Bare, CommandLimits, CurrentDraw, Level2, Level3, Level4, Level5, MechanisticQuadrotor, Quadrotor,
-    RotorSet, SpinningRotors,
+    Bare, CommandLimits, CurrentDraw, MechanisticQuadrotor, Quadrotor, RotorSet, SpinningRotors,
 };
 pub use quadrotor_state::{QuadrotorRate, QuadrotorState};
 pub use resolution::{Feature, Resolution};
 pub use rigid_body::{RigidBody, RigidBodyRate, RigidBodyState, Wrench};
 pub use shear::{Shear, ShearError, ShearProfile};
+pub use trim::Trim;
 pub use vehicle::{UncertainVehicle, Vehicle, VehicleError};
 
 /// The README's example is tested with the documentation.

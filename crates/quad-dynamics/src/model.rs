@@ -1,87 +1,11 @@
-//! What every model of the family offers: the trait, its inputs, its outputs, its levels.
+//! What every model of the family offers: the trait, its inputs and its outputs.
 
-use crate::{BuildError, Kick, PhenomenonSet, RigidBodyState, Vehicle};
+use crate::trim::Trim;
+use crate::{BuildError, Capabilities, Kick, PhenomenonSet, RigidBodyState, Vehicle};
 use nalgebra::Vector3;
 use quad_kinematics::{Body, EulerAngles, Rotation, World};
 use quad_math::{Flat, Real, State, System};
 use quad_rotor::RotorOutput;
-use serde::{Deserialize, Serialize};
-use std::fmt;
-
-/// A level of resolution of the family. In files: the number 1 to 5.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "u8", into = "u8")]
-pub enum Level {
-    /// Linear: the rigid body linearised about hover at the present heading, ideal rotors.
-    One,
-    /// Non-linear rigid body, ideal rotors.
-    Two,
-    /// As 2 with first-order rotors.
-    Three,
-    /// As 2 with identified linear rotors, drag and gyroscopic torque.
-    Four,
-    /// As 4 with identified non-linear rotors, limits and battery voltage.
-    Five,
-}
-
-impl Level {
-    /// All levels, lowest first.
-    pub const ALL: [Self; 5] = [Self::One, Self::Two, Self::Three, Self::Four, Self::Five];
-
-    /// The number, 1 to 5.
-    pub const fn number(self) -> u8 {
-        match self {
-            Self::One => 1,
-            Self::Two => 2,
-            Self::Three => 3,
-            Self::Four => 4,
-            Self::Five => 5,
-        }
-    }
-
-    /// The phenomena that belong to the level unless told otherwise.
-    pub fn phenomena(self) -> PhenomenonSet {
-        use crate::Phenomenon::{Drag, GyroscopicTorque, InputLimits, VoltageSag};
-        match self {
-            Self::One | Self::Two | Self::Three => PhenomenonSet::none(),
-            Self::Four => [Drag, GyroscopicTorque].into_iter().collect(),
-            Self::Five => [Drag, GyroscopicTorque, InputLimits, VoltageSag]
-                .into_iter()
-                .collect(),
-        }
-    }
-}
-
-impl fmt::Display for Level {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "level {}", self.number())
-    }
-}
-
-/// A level that is not 1 to 5.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no level {number}: the family has levels 1 to 5")]
-pub struct NoSuchLevel {
-    /// The number asked for.
-    pub number: u8,
-}
-
-impl TryFrom<u8> for Level {
-    type Error = NoSuchLevel;
-
-    fn try_from(number: u8) -> Result<Self, NoSuchLevel> {
-        Self::ALL
-            .into_iter()
-            .find(|l| l.number() == number)
-            .ok_or(NoSuchLevel { number })
-    }
-}
-
-impl From<Level> for u8 {
-    fn from(level: Level) -> Self {
-        level.number()
-    }
-}
 
 /// What drives a quadrotor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,8 +70,8 @@ pub struct Snapshot<R: Real> {
     pub body: RigidBodyState<R>,
     /// The rotors.
     pub rotors: [RotorSnapshot<R>; 4],
-    /// Charge drawn from the battery, Ah; zero for levels without a battery.
-    pub charge_drawn: R,
+    /// Charge drawn from the battery, Ah; `None` for levels without a battery, which adopt any.
+    pub charge_drawn: Option<R>,
 }
 
 /// A state and an input at rest in the air.
@@ -171,8 +95,11 @@ pub type StateOf<R, M> = <M as System<R>>::State;
 pub trait QuadrotorModel<R: Real>:
     System<R, Input = Input<R>, State: Flat<R> + State<R, Rate: Flat<R>>> + Sized
 {
-    /// The level; `None` for the mechanistic vehicle, which stands outside the family as its 'truth'.
-    const LEVEL: Option<Level>;
+    /// How messages name the model: by its level, but for the mechanistic vehicle, which is outside the family as its 'truth'.
+    const NAME: &'static str;
+
+    /// What it brings along that phenomena may need.
+    const CAPABILITIES: Capabilities;
 
     /// The model of a vehicle with these phenomena switched on.
     ///
@@ -180,18 +107,25 @@ pub trait QuadrotorModel<R: Real>:
     /// If the vehicle lacks a group of parameters that the model needs, if a phenomenon's prerequisite
     /// is not met, or if the vehicle can't hover.
     fn build(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Self, BuildError> {
-        Self::build_with(vehicle, &vehicle.map(quad_math::constant), phenomena)
+        let trim = Self::trim(vehicle, phenomena)?;
+        Self::build_trimmed(&vehicle.map(quad_math::constant), phenomena, &trim)
     }
 
-    /// As [`QuadrotorModel::build`], with the vehicle's numbers over the model's scalar: the same ones, with derivatives.
-    /// The commands of hover are those of `vehicle`, constants.
+    /// The commands that hold a vehicle of this model in hover.
     ///
     /// # Errors
     /// As [`QuadrotorModel::build`].
-    fn build_with(
-        vehicle: &Vehicle,
+    fn trim(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Trim, BuildError>;
+
+    /// The model of a vehicle whose numbers are over the model's scalar, with derivatives for instance. Its hover is held by
+    /// the commands of the trim, which are constants.
+    ///
+    /// # Errors
+    /// If the vehicle lacks a group of parameters that the model needs, or if a phenomenon's prerequisite is not met.
+    fn build_trimmed(
         parameters: &Vehicle<R>,
         phenomena: &PhenomenonSet,
+        trim: &Trim,
     ) -> Result<Self, BuildError>;
 
     /// What can be seen of the flight.
@@ -213,4 +147,39 @@ pub trait QuadrotorModel<R: Real>:
 
     /// The phenomena switched on.
     fn phenomena(&self) -> &PhenomenonSet;
+
+    /// The rigid body in a state, where the state has one in body axes; `None` at level 1.
+    fn rigid_body(state: &mut Self::State) -> Option<&mut RigidBodyState<R>>;
+
+    /// Natural sizes of the states of rotors and supply, in their order and units: what they are in hover, or move by.
+    fn own_scales(&self) -> Vec<R>;
+
+    /// An upper bound of the fastest pole of its rotors about hover, rad/s; zero where they have no states.
+    fn fastest_pole(&self) -> R;
+}
+
+/// A model together with the state it is in.
+#[derive(Clone, Debug)]
+pub struct InFlight<R: Real, M: QuadrotorModel<R>> {
+    /// The model.
+    pub model: M,
+    /// Its state.
+    pub state: StateOf<R, M>,
+}
+
+impl<R: Real, M: QuadrotorModel<R>> InFlight<R, M> {
+    /// A vehicle in level hover at a position in W, m, heading ψ, rad.
+    ///
+    /// # Errors
+    /// As [`QuadrotorModel::build`].
+    pub fn hovering(
+        vehicle: &Vehicle,
+        phenomena: &PhenomenonSet,
+        position: Vector3<R>,
+        yaw: R,
+    ) -> Result<Self, BuildError> {
+        let model = M::build(vehicle, phenomena)?;
+        let state = model.hover(position, yaw).state;
+        Ok(Self { model, state })
+    }
 }

@@ -1,6 +1,5 @@
 //! The parts of a model that switch on and off, and the sets of them that order models by resolution.
 
-use crate::Level;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
@@ -120,14 +119,14 @@ impl fmt::Display for Phenomenon {
 pub enum Prerequisite {
     /// Nothing.
     None,
-    /// A non-linear rigid body (levels 2 and up).
+    /// A non-linear rigid body.
     NonLinearRigidBody,
     /// A non-linear rigid body, and rotor speeds: a propeller law, or speed states.
     RotorSpeed,
-    /// Rotors with dynamics whose torque is aerodynamic only (level 3); an identified reaction torque
+    /// Rotors with dynamics whose torque is aerodynamic only; an identified reaction torque
     /// contains the spin-up already.
     AerodynamicRotorTorque,
-    /// Rotors whose thrust depends on the battery voltage (level 5).
+    /// Rotors whose thrust depends on the battery voltage.
     VoltageDependentRotor,
     /// A non-linear rigid body, and propellers whose thrust and disc give an induced velocity.
     InducedVelocity,
@@ -138,23 +137,14 @@ pub enum Prerequisite {
 /// What a model brings along that a phenomenon may need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
-    /// Whether its rigid body is non-linear.
+    /// Whether its rigid body is non-linear; its state then begins with a [`crate::RigidBodyState`].
     pub non_linear_rigid_body: bool,
     /// Whether its rotors' spin-up is not part of their torque already.
     pub separate_spin_up: bool,
     /// Whether its rotors feel the battery voltage.
     pub feels_voltage: bool,
-}
-
-impl Capabilities {
-    /// What a level brings along.
-    pub const fn of(level: Level) -> Self {
-        Self {
-            non_linear_rigid_body: !matches!(level, Level::One),
-            separate_spin_up: matches!(level, Level::Three),
-            feels_voltage: matches!(level, Level::Five),
-        }
-    }
+    /// Whether it has a battery, which remembers the charge drawn.
+    pub has_battery: bool,
 }
 
 impl Prerequisite {
@@ -170,22 +160,18 @@ impl Prerequisite {
             Self::AirRelativeDrag => phenomena.contains(Phenomenon::Drag),
         }
     }
-}
 
-impl fmt::Display for Prerequisite {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+    /// What it asks for, in a phrase; shown with the levels that have it.
+    pub(crate) const fn phrase(self) -> &'static str {
+        match self {
             Self::None => "nothing",
-            Self::NonLinearRigidBody => "a non-linear rigid body (levels 2 to 5)",
-            Self::RotorSpeed => "rotor speeds on a non-linear rigid body (levels 2 to 5)",
-            Self::AerodynamicRotorTorque => {
-                "rotor dynamics with aerodynamic torque only (level 3; the identified torque of levels 4 and 5 \
-                 contains the spin-up)"
-            }
-            Self::VoltageDependentRotor => "rotors that depend on the battery voltage (level 5)",
-            Self::InducedVelocity => "the propellers' induced velocity on a non-linear rigid body (levels 2 to 5)",
+            Self::NonLinearRigidBody => "a non-linear rigid body",
+            Self::RotorSpeed => "rotor speeds on a non-linear rigid body",
+            Self::AerodynamicRotorTorque => "rotor dynamics with aerodynamic torque only",
+            Self::VoltageDependentRotor => "rotors that depend on the battery voltage",
+            Self::InducedVelocity => "the propellers' induced velocity on a non-linear rigid body",
             Self::AirRelativeDrag => "the phenomenon drag, through which the air is felt",
-        })
+        }
     }
 }
 
@@ -225,11 +211,11 @@ impl PhenomenonSet {
         self.0.iter().copied().find(|p| !is_met(p))
     }
 
-    /// What is left of the set at a level: without what needs what the level doesn't have.
+    /// What is left of the set at a model: without what needs what the model doesn't have.
     #[must_use]
-    pub fn admitted_by(&self, level: Level) -> Self {
+    pub fn admitted_by(&self, model: Capabilities) -> Self {
         let mut left = self.clone();
-        while let Some(unmet) = left.first_unmet(Capabilities::of(level)) {
+        while let Some(unmet) = left.first_unmet(model) {
             left.0.remove(&unmet);
         }
         left

@@ -1,6 +1,6 @@
 //! Levels 2 to 5: one rigid body, four rotors of some model, and parts that switch on and off.
 //!
-//! One text serves four levels and the mechanistic vehicle, since they differ in their rotor model:
+//! One implementation serves four levels and the mechanistic vehicle, since they differ in their rotor model:
 //!
 //! ```text
 //! voltage       V_b = supply(charge, Σ current)
@@ -12,28 +12,19 @@
 //!
 //! Source: thesis chapters 3.3 to 3.6 and 5.3.
 
+use crate::family::{FamilyRotor, FamilySupply};
 use crate::forces::sum_of_four;
 use crate::model::RotorSnapshot;
+use crate::trim::Trim;
 use crate::{
-    Blockage, BuildError, Drag, Flight, GroundEffect, Hover, Input, Kick, Level, PhenomenonSet,
+    Blockage, BuildError, Capabilities, Drag, Flight, GroundEffect, Hover, Input, Kick, PhenomenonSet,
     QuadrotorModel, QuadrotorRate, QuadrotorState, RigidBody, RigidBodyState, RotorGeometry, Snapshot,
     Vehicle, gyroscopic_torque,
 };
 use nalgebra::Vector3;
 use quad_math::{RateOf, Real, System};
-use quad_rotor::{
-    Battery, ConstantVoltage, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor, NonLinearRotor,
-    Propeller, RotorInput, RotorModel, RotorOutput, Supply,
-};
+use quad_rotor::{Battery, MechanisticRotor, Propeller, RotorInput, RotorModel, RotorOutput, SpinUp, Supply};
 
-/// Level 2: non-linear rigid body, ideal rotors.
-pub type Level2<R> = Quadrotor<R, IdealRotor<R>, ConstantVoltage<R>>;
-/// Level 3: non-linear rigid body, first-order rotors.
-pub type Level3<R> = Quadrotor<R, FirstOrderRotor<R>, ConstantVoltage<R>>;
-/// Level 4: non-linear rigid body, identified linear rotors.
-pub type Level4<R> = Quadrotor<R, LinearRotor<R>, ConstantVoltage<R>>;
-/// Level 5: non-linear rigid body, identified non-linear rotors on a battery.
-pub type Level5<R> = Quadrotor<R, NonLinearRotor<R>, Battery<R>>;
 /// The mechanistic vehicle: motors and propellers from first principles, on a battery.
 pub type MechanisticQuadrotor<R> = Quadrotor<R, MechanisticRotor<R>, Battery<R>>;
 
@@ -318,17 +309,28 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> System<R> for Bare<'_, R, M, S> {
 impl<R, M, S> QuadrotorModel<R> for Quadrotor<R, M, S>
 where
     R: Real,
-    M: crate::assemble::FamilyRotor<R, Supply = S>,
-    S: crate::assemble::FamilySupply<R>,
+    M: FamilyRotor<R, Supply = S>,
+    S: FamilySupply<R>,
 {
-    const LEVEL: Option<Level> = M::LEVEL;
+    const NAME: &'static str = M::NAME;
 
-    fn build_with(
-        vehicle: &Vehicle,
+    const CAPABILITIES: Capabilities = Capabilities {
+        non_linear_rigid_body: true,
+        separate_spin_up: matches!(M::SPIN_UP, SpinUp::Separate),
+        feels_voltage: M::FEELS_VOLTAGE,
+        has_battery: S::IS_BATTERY,
+    };
+
+    fn trim(vehicle: &Vehicle, phenomena: &PhenomenonSet) -> Result<Trim, BuildError> {
+        crate::assemble::trim::<R, M>(vehicle, phenomena)
+    }
+
+    fn build_trimmed(
         parameters: &Vehicle<R>,
         phenomena: &PhenomenonSet,
+        trim: &Trim,
     ) -> Result<Self, BuildError> {
-        crate::assemble::quadrotor(vehicle, parameters, phenomena)
+        crate::assemble::quadrotor(parameters, phenomena, trim)
     }
 
     #[inline(always)]
@@ -402,5 +404,23 @@ where
 
     fn phenomena(&self) -> &PhenomenonSet {
         &self.phenomena
+    }
+
+    fn rigid_body(state: &mut Self::State) -> Option<&mut RigidBodyState<R>> {
+        Some(&mut state.body)
+    }
+
+    fn own_scales(&self) -> Vec<R> {
+        let Hover { state, input } = self.hover(Vector3::zeros(), R::zero());
+        let (_, inputs) = self.rotor_set.rotor_inputs(&state.rotors, &state.supply, &input);
+        let output = self.rotor_set.rotors[0].output(&state.rotors[0], &inputs[0]);
+        let mut scales = M::state_scales(&state.rotors[0], &output).repeat(4);
+        scales.extend(S::state_scales());
+        scales
+    }
+
+    fn fastest_pole(&self) -> R {
+        let hover = self.hover(Vector3::zeros(), R::zero()).state;
+        self.rotor_set.rotors[0].fastest_pole(&hover.rotors[0])
     }
 }

@@ -4,8 +4,7 @@
 //! at level 2 and off at level 3, neither is higher. Source: thesis chapter 5.1.4 (the notion); the measure
 //! by inclusion is this project's choice.
 
-use crate::{Level, Level1, Level2, Level3, Level4, Level5, Phenomenon, PhenomenonSet, StateOf};
-use quad_math::Flat;
+use crate::{Level, Phenomenon, PhenomenonSet};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::fmt;
@@ -56,21 +55,11 @@ pub struct Resolution {
 impl Resolution {
     /// The resolution of a level with these phenomena switched on.
     pub fn of(level: Level, phenomena: &PhenomenonSet) -> Self {
-        let structure = STRUCTURE
-            .iter()
-            .filter(|(from, _)| level >= *from)
-            .map(|(_, feature)| *feature);
+        let structure = structure_up_to(level);
         let parts = phenomena.0.iter().map(|p| Feature::Phenomenon(*p));
-        let states = match level {
-            Level::One => StateOf::<f64, Level1<f64>>::LEN,
-            Level::Two => StateOf::<f64, Level2<f64>>::LEN,
-            Level::Three => StateOf::<f64, Level3<f64>>::LEN,
-            Level::Four => StateOf::<f64, Level4<f64>>::LEN,
-            Level::Five => StateOf::<f64, Level5<f64>>::LEN,
-        };
         Self {
             level,
-            states,
+            states: level.states(),
             inputs: 4,
             features: structure.chain(parts).collect(),
         }
@@ -88,11 +77,8 @@ impl Resolution {
 
     /// The highest level all of whose structure is among these features.
     pub fn highest_level_within(features: &BTreeSet<Feature>) -> Level {
-        let complete = |level: &Level| {
-            let mut needed = STRUCTURE.iter().filter(|(from, _)| level >= from);
-            needed.all(|(_, feature)| features.contains(feature))
-        };
-        Level::ALL.into_iter().rfind(complete).unwrap_or(Level::One)
+        let complete = |level: &Level| structure_up_to(*level).all(|feature| features.contains(&feature));
+        Level::ALL.into_iter().rfind(complete).unwrap_or(Level::LOWEST)
     }
 
     /// What this model has and the other lacks.
@@ -101,14 +87,11 @@ impl Resolution {
     }
 }
 
-/// The structure that enters with each level.
-const STRUCTURE: [(Level, Feature); 5] = [
-    (Level::Two, Feature::NonLinearRigidBody),
-    (Level::Three, Feature::RotorLag),
-    (Level::Four, Feature::IdentifiedRotorDynamics),
-    (Level::Five, Feature::NonLinearRotor),
-    (Level::Five, Feature::VoltageDependence),
-];
+/// The structure of a level: what enters with it and with those below.
+fn structure_up_to(level: Level) -> impl Iterator<Item = Feature> {
+    let levels = Level::ALL.into_iter().filter(move |other| *other <= level);
+    levels.flat_map(|level| level.structure().iter().copied())
+}
 
 /// By inclusion of features: `None` where each has something that the other lacks.
 impl PartialOrd for Resolution {

@@ -4,7 +4,7 @@
 use crate::*;
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Vector3};
-use quad_math::{System, rk4};
+use quad_math::{Flat, System, rk4};
 use quad_rotor::{RotorOutput, ThrustState};
 
 mod air_rates;
@@ -295,7 +295,17 @@ fn exact_levels_and_their_numbers() {
         any.write_state(&mut numbers);
         assert!(numbers.iter().all(|x| x.is_finite()));
     }
-    assert_eq!(Level::try_from(6), Err(NoSuchLevel { number: 6 }));
+    let number = Level::HIGHEST.number() + 1;
+    assert_eq!(Level::try_from(number), Err(NoSuchLevel { number }));
+    assert_eq!(
+        NoSuchLevel { number }.to_string(),
+        "there is no level 6: the family has levels 1 to 5"
+    );
+    assert_eq!((Level::One.below(), Level::Two.below()), (None, Some(Level::One)));
+    assert_eq!(
+        (Level::Five.above(), Level::Four.above()),
+        (None, Some(Level::Five))
+    );
     assert!(Level::Three.phenomena().is_subset(&Level::Four.phenomena()));
     assert!(!Level::Five.phenomena().is_subset(&Level::Four.phenomena()));
 }
@@ -331,7 +341,7 @@ fn agree_prerequisites_with_what_builds() {
         for phenomenon in Phenomenon::ALL {
             let on = PhenomenonSet::none().with(phenomenon);
             let built = AnyQuadrotor::<f64>::hovering(level, &vehicle, &on, Vector3::zeros(), 0.0);
-            let admitted = on.admitted_by(level) == on;
+            let admitted = on.admitted_by(level.capabilities()) == on;
             match built {
                 Ok(_) => assert!(admitted, "{level}, {phenomenon}"),
                 Err(error) => {
@@ -351,10 +361,100 @@ fn agree_prerequisites_with_what_builds() {
         .with(Phenomenon::Drag)
         .with(Phenomenon::Turbulence);
     assert!(Level2::<f64>::build(&vehicle, &windy).is_ok());
-    assert_eq!(windy.admitted_by(Level::One), PhenomenonSet::none());
+    assert_eq!(
+        windy.admitted_by(Level::One.capabilities()),
+        PhenomenonSet::none()
+    );
     let message = Level2::<f64>::build(&vehicle, &windy.without(Phenomenon::Drag)).unwrap_err();
     assert_eq!(
         message.to_string(),
         "level 2 can't have turbulence: it needs the phenomenon drag, through which the air is felt"
     );
+}
+
+/// What a model says of itself and what it is: its name, where its rigid body is, and a natural size for each state of its own.
+fn check_row<M: LevelModel<f64>>(level: Level) {
+    assert_eq!((M::LEVEL, M::NAME), (level, level.to_string().as_str()));
+    let any = AnyQuadrotor::<f64>::hovering(level, &qball(), &level.phenomena(), Vector3::zeros(), 0.0);
+    let mut any = any.expect("nominal");
+    let is_rigid_body = level.capabilities().non_linear_rigid_body;
+    assert_eq!(any.rigid_body().is_some(), is_rigid_body, "{level}");
+    let shared = if is_rigid_body { 13 } else { 12 };
+    let scales = any.own_scales();
+    assert_eq!(any.state_len(), shared + scales.len(), "{level}");
+    assert!(
+        scales.iter().all(|scale| scale.is_finite() && *scale > 0.0),
+        "{level}"
+    );
+    let snapshot = any.snapshot(&any.hover_input());
+    assert_eq!(
+        snapshot.charge_drawn.is_some(),
+        level.capabilities().has_battery,
+        "{level}"
+    );
+}
+
+/// Every row of the table of levels.
+struct Check(Level);
+
+impl WithLevel<f64> for Check {
+    type Out = ();
+
+    fn with<M: LevelModel<f64>>(self) {
+        check_row::<M>(self.0);
+    }
+}
+
+#[test]
+fn exact_rows_of_the_table_of_levels() {
+    for level in Level::ALL {
+        level.visit(Check(level));
+    }
+}
+
+/// The declared fastest pole bounds the rotor's response: thrust after a step of the command relaxes no faster. The decay
+/// of the last per cent of a step is that of the slowest pole, its beginning that of the sum of all; so the rate of any state, over its
+/// distance to the new equilibrium, bounds nothing for two poles. Instead the Jacobian's eigenvalues are found, by central
+/// differences of one rotor's states about hover.
+#[test]
+fn agree_fastest_pole_with_eigenvalues() {
+    fn check<M: QuadrotorModel<f64>>(size: usize, on: &PhenomenonSet) {
+        let model = M::build(&qball(), on).expect("nominal");
+        let hover = model.hover(Vector3::zeros(), 0.0);
+        let rate = |x: &[f64]| {
+            let rate = model.derivative(&Flat::read(x), &hover.input);
+            let mut numbers = vec![0.0; <quad_math::RateOf<f64, M> as Flat<f64>>::LEN];
+            rate.write(&mut numbers);
+            numbers
+        };
+        let mut at = vec![0.0; <StateOf<f64, M> as Flat<f64>>::LEN];
+        hover.state.write(&mut at);
+        // The body's 13 numbers come first; its rate has 13 too.
+        let jacobian = nalgebra::DMatrix::from_fn(size, size, |row, column| {
+            let h = 1e-4 * at[13 + column].abs().max(1e-3);
+            let moved = |h: f64| {
+                let mut x = at.clone();
+                x[13 + column] += h;
+                rate(&x)[13 + row]
+            };
+            (moved(h) - moved(-h)) / (2.0 * h)
+        });
+        let fastest = jacobian
+            .complex_eigenvalues()
+            .iter()
+            .map(|e| e.norm())
+            .fold(0.0, f64::max);
+        let declared = model.fastest_pole();
+        // Never below the true one; the sum of two poles is less than twice the faster. A thousandth for the differences.
+        assert!(
+            fastest < 1.001 * declared && declared < 2.0 * fastest,
+            "{}: {fastest} of {declared}",
+            M::NAME
+        );
+    }
+    let none = PhenomenonSet::none();
+    check::<Level3<f64>>(1, &none);
+    check::<Level4<f64>>(4, &none);
+    check::<Level5<f64>>(4, &none);
+    check::<MechanisticQuadrotor<f64>>(2, &none);
 }

@@ -12,10 +12,17 @@
 
 use crate::quadrotor::RotorSet;
 use crate::vehicle::Vehicle;
-use crate::{BuildError, Input, ModelName, QuadrotorState, RigidBodyState};
+use crate::{BuildError, Input, QuadrotorState, RigidBodyState};
 use nalgebra::{Matrix4, Vector3, Vector4};
 use quad_math::Real;
 use quad_rotor::{RotorInput, RotorModel, Supply};
+
+/// The commands that hold a vehicle in level hover, in still air out of ground effect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trim {
+    /// Zeroed rotor commands, dimensionless duty, in the order of the vehicle's rotors.
+    pub commands: [f64; 4],
+}
 
 /// Rounds of `voltage → torque → current → voltage`. Internal resistance times the slope of the current
 /// contracts the error at least fivefold a round, so thirty leave rounding only.
@@ -52,14 +59,14 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> RotorSet<R, M, S> {
 }
 
 impl<M: RotorModel<f64>, S: Supply<f64>> RotorSet<f64, M, S> {
-    /// Zeroed commands that hold hover: this lift, N, of the four rotors, and no moment about any axis.
-    pub(crate) fn hover_commands(
+    /// The trim of hover: this lift, N, of the four rotors, and no moment about any axis.
+    pub(crate) fn trim(
         &self,
         vehicle: &Vehicle,
-        model: ModelName,
+        model: &'static str,
         within_limits: bool,
         lift: f64,
-    ) -> Result<[f64; 4], BuildError> {
+    ) -> Result<Trim, BuildError> {
         let g = &self.geometry;
         let rows = Matrix4::from_fn(|row, i| match row {
             0 => 1.0,
@@ -130,10 +137,10 @@ fn root_by_secant(f: impl Fn(f64) -> f64, scale: f64) -> f64 {
 
 fn check_hover(
     vehicle: &Vehicle,
-    model: ModelName,
+    model: &'static str,
     within_limits: bool,
     commands: [f64; 4],
-) -> Result<[f64; 4], BuildError> {
+) -> Result<Trim, BuildError> {
     let range = vehicle.zeroed_range();
     for (i, &command) in commands.iter().enumerate() {
         if !command.is_finite() || (within_limits && !range.contains(&command)) {
@@ -147,5 +154,5 @@ fn check_hover(
             });
         }
     }
-    Ok(commands)
+    Ok(Trim { commands })
 }

@@ -87,7 +87,7 @@ const SERIES: [Look; 6] = [
     Look::solid(SKY, 1.4).dashed("4 2").marked(Marker::Cross),
 ];
 
-/// The look of one level of the model family, the same in every figure. Levels run from 1 to 5.
+/// The look of one level of the model family, counted from 1, the same in every figure; repeats after six.
 ///
 /// Draw the levels in rising order: their widths fall, so that coinciding curves all stay visible.
 pub const fn level_style(level: u8) -> Look {

@@ -1,4 +1,4 @@
-//! `sifre levels`: the same scenario at all five levels of resolution, and what they differ by.
+//! `sifre levels`: the same scenario at all levels of resolution, and what they differ by.
 //!
 //! ```text
 //! position   |r_ℓ − r_5|
@@ -251,7 +251,7 @@ fn as_json(
                 })
             })
     });
-    json!({ "differences_to_level": 5, "rows": rows.collect::<Vec<_>>() })
+    json!({ "differences_to_level": Level::HIGHEST, "rows": rows.collect::<Vec<_>>() })
 }
 
 /// A column per quadrotor: position above, attitude below.
@@ -259,7 +259,7 @@ fn figure(agents: &[String], differences: &[Vec<Difference>]) -> Figure {
     let panel = |label: &str, agent: &str, differences: &[Difference], of: fn(&Difference) -> &[f64]| {
         let lower = differences
             .iter()
-            .filter(|difference| difference.level != Level::Five);
+            .filter(|difference| difference.level != Level::HIGHEST);
         let panel = Panel::new("Time *t*, s", label).caption(agent);
         lower.fold(panel, |panel, difference| {
             let number = difference.level.number();
@@ -274,12 +274,12 @@ fn figure(agents: &[String], differences: &[Vec<Difference>]) -> Figure {
     };
     let mut figure = Figure::columns(agents.len()).share_x();
     for (agent, differences) in agents.iter().zip(differences) {
-        let label = "Position, difference to level 5, m";
-        figure = figure.panel(panel(label, agent, differences, |d| &d.position_m));
+        let label = format!("Position, difference to {}, m", Level::HIGHEST);
+        figure = figure.panel(panel(&label, agent, differences, |d| &d.position_m));
     }
     for differences in differences {
-        let label = "Attitude, difference to level 5, °";
-        figure = figure.panel(panel(label, "", differences, |d| &d.attitude_deg));
+        let label = format!("Attitude, difference to {}, °", Level::HIGHEST);
+        figure = figure.panel(panel(&label, "", differences, |d| &d.attitude_deg));
     }
     figure.legends(if agents.len() == 1 {
         Legends::Common

@@ -167,7 +167,7 @@ impl Parts {
             _ => None,
         });
         let phenomena: PhenomenonSet = phenomena.collect();
-        (level, phenomena.admitted_by(level))
+        (level, phenomena.admitted_by(level.capabilities()))
     }
 
     /// Measures every model between the two and shares out the difference: `measure` gives the number of a run at a level with

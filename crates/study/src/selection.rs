@@ -67,13 +67,16 @@ pub struct Selection {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SelectionError {
     /// Nothing to agree with.
-    #[error("level 5 is not among the answers: it is what the others are compared with")]
+    #[error(
+        "{} is not among the answers: it is what the others are compared with",
+        Level::HIGHEST
+    )]
     NoReference,
     /// Nothing asked.
-    #[error("level 5 answered with no numbers: ask at least one")]
+    #[error("{} answered with no numbers: ask at least one", Level::HIGHEST)]
     NothingAsked,
     /// Level 5 gave NaN or an infinite number.
-    #[error("level 5 must answer finite numbers, got {value} in case {case}")]
+    #[error("{} must answer finite numbers, got {value} in case {case}", Level::HIGHEST)]
     BadReference {
         /// The case, from 0.
         case: usize,
@@ -81,13 +84,16 @@ pub enum SelectionError {
         value: f64,
     },
     /// A level twice.
-    #[error("level {level} answered twice")]
+    #[error("{level} answered twice")]
     Twice {
         /// Which.
         level: Level,
     },
     /// A level that was asked something else.
-    #[error("level {level} must answer {expected} numbers as level 5 does, got {values}")]
+    #[error(
+        "{level} must answer {expected} numbers as {} does, got {values}",
+        Level::HIGHEST
+    )]
     OtherCases {
         /// Which.
         level: Level,
@@ -107,7 +113,7 @@ pub enum SelectionError {
         relative: f64,
     },
     /// A price that is negative, NaN or infinite.
-    #[error("the price of level {level} must be finite and not negative, got {price}")]
+    #[error("the price of {level} must be finite and not negative, got {price}")]
     BadPrice {
         /// Which.
         level: Level,
@@ -141,7 +147,7 @@ pub fn select(answers: &[Answer], tolerance: Tolerance) -> Result<Selection, Sel
     }
     let reference = answers
         .iter()
-        .find(|a| a.level == Level::Five)
+        .find(|a| a.level == Level::HIGHEST)
         .ok_or(SelectionError::NoReference)?;
     check(answers, reference)?;
     let mut levels: Vec<_> = answers
@@ -157,7 +163,7 @@ pub fn select(answers: &[Answer], tolerance: Tolerance) -> Result<Selection, Sel
         let agreeing = of.iter().filter(|a| a.agrees());
         agreeing
             .min_by(|a, b| a.answer.price.total_cmp(&b.answer.price))
-            .map_or(Level::Five, |a| a.answer.level)
+            .map_or(Level::HIGHEST, |a| a.answer.level)
     };
     Ok(Selection {
         cheapest: cheapest(&levels),

@@ -30,7 +30,8 @@
 //! // Height lost in a second by the commands that hold the nominal vehicle: ½ g t² per share of the mass.
 //! let [down] = sensitivity::by_differentiation(&vehicle, |parameters| {
 //!     let phenomena = Level::Two.phenomena();
-//!     let model = Level2::<Dual64>::build_with(vehicle.nominal(), parameters, &phenomena)?;
+//!     let trim = Level2::<Dual64>::trim(vehicle.nominal(), &phenomena)?;
+//!     let model = Level2::<Dual64>::build_trimmed(parameters, &phenomena, &trim)?;
 //!     let hover = model.hover(Vector3::zeros(), 0.0.into());
 //!     let mut state = hover.state;
 //!     for _ in 0..100 {
@@ -114,7 +115,7 @@ pub fn by_differences<const N: usize, E: From<VehicleError>>(
 }
 
 /// First-order uncertainty of N results by automatic differentiation: one evaluation over dual numbers per uncertain number. A
-/// model takes the vehicle that it gets in [`quad_dynamics::QuadrotorModel::build_with`].
+/// model takes the vehicle that it gets in [`quad_dynamics::QuadrotorModel::build_trimmed`].
 ///
 /// # Errors
 /// If a vehicle [`STEP`] standard errors off is not valid, or the results' own error.

@@ -34,7 +34,7 @@ fn idle(body: RigidBodyState<f64>) -> Snapshot<f64> {
             output: zero,
             rate: zero,
         }; 4],
-        charge_drawn: 0.0,
+        charge_drawn: None,
     }
 }
 

@@ -318,7 +318,7 @@ fn exact_exchange_of_the_wrong_rotors_is_noticed() {
                 output: zero,
                 rate: zero,
             }; 4],
-            charge_drawn: 0.0,
+            charge_drawn: None,
         },
         input: Input::still_air([1.0, 1.0, 1.1, 1.0].map(|s| s * hover)),
         vehicle,

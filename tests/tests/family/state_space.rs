@@ -145,7 +145,7 @@ fn box_point() -> impl Strategy<Value = BoxPoint> {
                 output: output(t, q),
                 rate: output(dt, dq),
             });
-            let charge_drawn = discharge * vehicle.battery.unwrap().capacity;
+            let charge_drawn = Some(discharge * vehicle.battery.unwrap().capacity);
             let commands = shares.map(|[.., u]| u * high);
             BoxPoint {
                 vehicle,

@@ -13,7 +13,7 @@
 //! Guidance* 26 (2003); Solà (2017), section 6.3, has G to first order.
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
-use quad_dynamics::{AnyQuadrotor, Level};
+use quad_dynamics::AnyQuadrotor;
 use quad_kinematics::{EulerAngles, Quaternion, cross_matrix};
 use quad_math::{Flat, Real, constant};
 
@@ -52,32 +52,18 @@ pub(crate) struct Layout {
     pub(super) longest_step_s: f64,
 }
 
-/// A rotor's bandwidth as a scale for rates of thrust and torque, 1/s: the order of a small motor's.
-const RATE_SCALE: f64 = 20.0;
-/// Scale of the charge drawn, Ah: small against the charge over which a full battery's voltage falls (1/B = 0.03 Ah), below which
-/// the discharge curve is no curve.
-const CHARGE_SCALE_AH: f64 = 0.01;
-
 impl Layout {
     pub(crate) fn of(model: &AnyQuadrotor<f64>, longest_step_s: f64) -> Self {
-        let input = model.hover_input();
-        let output = model.snapshot(&input).rotors[0].output;
-        let (t, q) = (output.thrust, output.torque);
-        let response = [t, RATE_SCALE * t, q, RATE_SCALE * q];
-        let own_scales = match model.level() {
-            Level::One | Level::Two => Vec::new(),
-            Level::Three => vec![t; 4],
-            Level::Four => response.repeat(4),
-            Level::Five => [response.repeat(4), vec![CHARGE_SCALE_AH]].concat(),
-        };
+        let is_rigid_body = model.level().capabilities().non_linear_rigid_body;
         Self {
-            attitude: match model.level() {
-                Level::One => Attitude::Euler,
-                _ => Attitude::Quaternion,
+            attitude: if is_rigid_body {
+                Attitude::Quaternion
+            } else {
+                Attitude::Euler
             },
             model_len: model.state_len(),
             longest_step_s,
-            own_scales,
+            own_scales: model.own_scales(),
         }
     }
 

@@ -122,16 +122,7 @@ impl LevelProcess {
             Vector3::zeros(),
             constant::<Seeded>(0.0),
         )?;
-        let quickest = match level {
-            Level::One | Level::Two => 0.0,
-            Level::Three => vehicle.linear_rotor.bandwidth,
-            // The sum of a rotor's two poles is more than the quicker one.
-            Level::Four | Level::Five => vehicle
-                .rotor_dynamics
-                .as_ref()
-                .map_or(0.0, |rotor| rotor.thrust_c1.max(rotor.torque_c3)),
-        };
-        let longest_step_s = LONGEST_STEP_S.min(STEP_TIMES_POLE / quickest);
+        let longest_step_s = LONGEST_STEP_S.min(STEP_TIMES_POLE / model.fastest_pole());
         let layout = Layout::of(&model, longest_step_s);
         Ok(Self {
             model,

@@ -121,7 +121,7 @@ fn run(level: Level, name: &str, fixes: Fixes) -> Option<Errors> {
             },
             rate: still,
         }; 4],
-        charge_drawn: 0.0,
+        charge_drawn: None,
     };
     let input = calibrated.input(level, &flight, first);
     let uncertainty = InitialUncertainty {

@@ -108,7 +108,7 @@ pub(super) fn state_at<M: QuadrotorModel<f64>>(
             },
             rate: still,
         }),
-        charge_drawn: 0.0,
+        charge_drawn: None,
     };
     model.adopt(&snapshot, &Input::still_air([0.0; 4]))
 }

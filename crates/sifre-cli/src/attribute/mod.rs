@@ -36,10 +36,10 @@ pub(crate) struct Arguments {
     #[arg(long)]
     metric: String,
     /// The lower level; all neighbouring levels without it.
-    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=5))]
+    #[arg(long, value_parser = level_number())]
     from: Option<u8>,
     /// The upper level; the next above --from without it.
-    #[arg(long, requires = "from", value_parser = clap::value_parser!(u8).range(1..=5))]
+    #[arg(long, requires = "from", value_parser = level_number())]
     to: Option<u8>,
     /// Set a key of the scenario: `--set duration_s=5`. May be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
@@ -133,6 +133,12 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     Ok(if all { Exit::Done } else { Exit::Early })
 }
 
+/// Reads the number of a level.
+fn level_number() -> impl clap::builder::TypedValueParser<Value = u8> {
+    let numbers = i64::from(Level::LOWEST.number())..=i64::from(Level::HIGHEST.number());
+    clap::value_parser!(u8).range(numbers)
+}
+
 /// The pairs of levels that are asked for.
 fn asked(arguments: &Arguments) -> Result<Vec<(Level, Level)>, Failure> {
     let level = |number: u8| Level::try_from(number).map_err(|e| Failure::Usage(e.to_string()));
@@ -140,7 +146,7 @@ fn asked(arguments: &Arguments) -> Result<Vec<(Level, Level)>, Failure> {
         return Ok(Level::ALL.windows(2).map(|pair| (pair[0], pair[1])).collect());
     };
     let to = arguments.to.unwrap_or(from + 1);
-    if to <= from || to > 5 {
+    if to <= from || to > Level::HIGHEST.number() {
         return Err(Failure::Usage(format!(
             "--from {from} --to {to}: there is nothing between them; give a higher level with --to"
         )));

@@ -1,6 +1,6 @@
 //! `sifre select-level`: which level of resolution is enough for what is asked.
 //!
-//! The scenario is flown at all five levels, in every case; [`study::selection`] compares the numbers with level 5's. The price of
+//! The scenario is flown at all levels, in every case; [`study::selection`] compares the numbers with the highest level's. The price of
 //! a level is its computing time per simulated second, the least of some repeats, the mean over the cases.
 
 mod output;
@@ -156,17 +156,17 @@ fn grid(axes: &[Axis]) -> Vec<Vec<Setting>> {
 
 /// A tolerance that nothing can be compared with is told before anything is flown.
 fn check(tolerance: Tolerance) -> Result<(), Failure> {
-    let level_5 = Answer {
-        level: Level::Five,
+    let reference = Answer {
+        level: Level::HIGHEST,
         values: vec![0.0],
         price: 0.0,
     };
-    select(&[level_5], tolerance)
+    select(&[reference], tolerance)
         .map(drop)
         .map_err(|error| Failure::Usage(error.to_string()))
 }
 
-/// Level 5 that has no number has ended early; all else can't be, since levels and cases are ours.
+/// A reference level that has no number has ended early; all else can't be, since levels and cases are ours.
 fn refused(error: &SelectionError, cases: &[Case], ends: &[Vec<Option<String>>]) -> Failure {
     let SelectionError::BadReference { case, .. } = error else {
         return Failure::Usage(error.to_string());
@@ -174,7 +174,8 @@ fn refused(error: &SelectionError, cases: &[Case], ends: &[Vec<Option<String>>])
     let metric = cases.get(*case).map_or("", |case| case.metric.as_str());
     let end = ends.last().and_then(|ends| ends.get(*case).cloned().flatten());
     Failure::Flight(format!(
-        "level 5 has no {metric}, so there is nothing to agree with: {}",
+        "{} has no {metric}, so there is nothing to agree with: {}",
+        Level::HIGHEST,
         end.unwrap_or_else(|| "it never settles".to_owned())
     ))
 }
@@ -217,7 +218,6 @@ fn explained(
     ends: Vec<Vec<Option<String>>>,
 ) -> Result<Option<Evidence>, Failure> {
     let upper = selection.dependable;
-    let below = Level::ALL.into_iter().rfind(|level| *level < upper);
     let mut evidence = Evidence {
         hint: None,
         why: None,
@@ -227,7 +227,7 @@ fn explained(
         tolerance,
         ends,
     };
-    let Some(lower) = below else {
+    let Some(lower) = upper.below() else {
         return Ok(Some(evidence));
     };
     let worst = evidence.worst(lower);

@@ -26,10 +26,10 @@ pub(super) fn text(evidence: &Evidence) -> String {
     };
     let of = |level: Level| {
         format!(
-            "level {} ({:.2} ms of computing per second, {:.1} times cheaper than level 5)",
-            level.number(),
+            "{level} ({:.2} ms of computing per second, {:.1} times cheaper than {})",
             price(level) * 1e3,
-            price(Level::Five) / price(level)
+            price(Level::HIGHEST) / price(level),
+            Level::HIGHEST
         )
     };
     let mut text = format!("{}\n", table(evidence));
@@ -144,13 +144,13 @@ pub(super) fn figure(evidence: &Evidence) -> Figure {
     let levels = &evidence.selection.levels;
     let reference = levels.last().map_or(&[][..], |a| &a.answer.values);
     let several = evidence.cases.len() > 1;
-    let differences = Panel::new("Level", "Difference to level 5 / allowed")
+    let differences = Panel::new("Level", format!("Difference to {} / allowed", Level::HIGHEST))
         .x_categories(Level::ALL.map(|level| level.number().to_string()))
-        .x_range(0.5, 5.5)
+        .x_range(0.5, f64::from(Level::HIGHEST.number()) + 0.5)
         .caption("Agrees at 1 and below")
         .log_y()
         .horizontal(1.0, "");
-    // A logarithmic axis has no place for no difference; level 5 differs from itself by nothing.
+    // A logarithmic axis has no place for no difference; the reference level differs from itself by nothing.
     let differences = evidence
         .cases
         .iter()
@@ -170,7 +170,7 @@ pub(super) fn figure(evidence: &Evidence) -> Figure {
         });
     let prices = Panel::new("Level", "Computing per second flown, ms")
         .x_categories(Level::ALL.map(|level| level.number().to_string()))
-        .x_range(0.5, 5.5)
+        .x_range(0.5, f64::from(Level::HIGHEST.number()) + 0.5)
         .y_include(0.0);
     let prices = levels.iter().fold(prices, |panel, level| {
         let number = level.answer.level.number();

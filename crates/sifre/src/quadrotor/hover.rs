@@ -22,7 +22,8 @@ pub(super) fn model(
 pub(super) fn hover_draw(model: &AnyQuadrotor<f64>) -> f64 {
     let (mut hovering, input) = (model.clone(), model.hover_input());
     hovering.step(FixedStep::Rk4, &input, DRAW_STEP_S);
-    (hovering.snapshot(&input).charge_drawn - model.snapshot(&input).charge_drawn) / DRAW_STEP_S
+    let drawn = |q: &AnyQuadrotor<f64>| q.snapshot(&input).charge_drawn.unwrap_or(0.0);
+    (drawn(&hovering) - drawn(model)) / DRAW_STEP_S
 }
 
 /// The same hover, but with this velocity in W, m/s.

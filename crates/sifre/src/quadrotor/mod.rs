@@ -178,10 +178,8 @@ impl Quadrotor {
     /// The flight goes on with this model.
     fn go_on_as(&mut self, mut next: AnyQuadrotor<f64>) -> AgentEvent {
         let mut snapshot = self.quadrotor.snapshot(&self.input);
-        match self.quadrotor.level() {
-            Level::Five => self.charge_drawn = snapshot.charge_drawn,
-            _ => snapshot.charge_drawn = self.charge_drawn,
-        }
+        self.charge_drawn = snapshot.charge_drawn.unwrap_or(self.charge_drawn);
+        snapshot.charge_drawn = Some(self.charge_drawn);
         next.adopt(&snapshot, &self.input);
         let (from, to) = (self.quadrotor.level(), next.level());
         // A pilot that sees estimates sees those of the same model as before.
@@ -194,10 +192,8 @@ impl Quadrotor {
 
     /// Charge drawn from its battery, A h; as in hover while it flies at a level without one.
     pub fn charge_drawn(&self) -> f64 {
-        match self.quadrotor.level() {
-            Level::Five => self.quadrotor.snapshot(&self.input).charge_drawn,
-            _ => self.charge_drawn,
-        }
+        let of_battery = self.quadrotor.snapshot(&self.input).charge_drawn;
+        of_battery.unwrap_or(self.charge_drawn)
     }
 
     /// The air that its model meets.
@@ -234,7 +230,7 @@ impl Quadrotor {
     /// The battery goes on as in hover at levels that don't have one, so that it is not fresh when one comes that does.
     #[inline(always)]
     fn draw_charge(&mut self, now: &Moment<'_>) {
-        if self.hover_draw > 0.0 && self.quadrotor.level() != Level::Five {
+        if self.hover_draw > 0.0 && !self.quadrotor.level().capabilities().has_battery {
             self.charge_drawn += self.hover_draw * now.step_s;
         }
     }

@@ -101,7 +101,7 @@ pub struct OpenLoop(pub Schedule<[f64; 4]>);
 
 impl Pilot for OpenLoop {
     fn level(&self) -> Level {
-        Level::One
+        Level::LOWEST
     }
 
     fn commands(

@@ -74,7 +74,8 @@ fn by_both<M: QuadrotorModel<f64>, D: QuadrotorModel<Dual64>>(
     });
     let constant_start = D::build(vehicle.nominal(), phenomena).unwrap();
     let derivatives = by_differentiation(&vehicle, |parameters| {
-        let model = D::build_with(vehicle.nominal(), parameters, phenomena)?;
+        let trim = D::trim(vehicle.nominal(), phenomena)?;
+        let model = D::build_trimmed(parameters, phenomena, &trim)?;
         Ok::<_, BuildError>(flown(&model, &constant_start))
     });
     [differences.unwrap(), derivatives.unwrap()]
@@ -196,7 +197,9 @@ fn exact_derivatives_of_what_is_derived() {
         assert_eq!(rotor.position.x.eps, 0.0);
     }
     let moved = differentiable(&vehicle, at("airframe.inertia_zz_kg_m2")).unwrap();
-    let body = Level2::<Dual64>::build_with(vehicle.nominal(), &moved, &Level::Two.phenomena())
+    let phenomena = Level::Two.phenomena();
+    let trim = Level2::<Dual64>::trim(vehicle.nominal(), &phenomena).unwrap();
+    let body = Level2::<Dual64>::build_trimmed(&moved, &phenomena, &trim)
         .unwrap()
         .body;
     let inverse = body.inertia_inverse[(2, 2)];

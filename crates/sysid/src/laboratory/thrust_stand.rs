@@ -18,7 +18,7 @@ pub use instruments::{Instruments, RotorSpread};
 use super::{Generator, SensorError};
 use crate::rotor_dynamics::DynamicSample;
 use crate::rotor_static::StaticSample;
-use quad_dynamics::assemble::FamilyRotor;
+use quad_dynamics::FamilyRotor;
 use quad_dynamics::{BuildError, Vehicle};
 use quad_math::{FixedStep, System};
 use quad_rotor::{MechanisticRotor, RotorInput, RotorModel, RotorOutput, Sag, SpinRate, SpinState};

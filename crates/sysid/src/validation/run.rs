@@ -1,4 +1,4 @@
-//! A quadrotor of levels 2 to 5 under recorded commands, whose body can be put back to where it was measured.
+//! A quadrotor with a non-linear rigid body under recorded commands, whose body can be put back to where it was measured.
 
 use super::replay::{ReplayError, ReplayVehicle};
 use crate::recorded::MotionCaptureFlight;
@@ -43,7 +43,8 @@ impl<'a> Run<'a> {
         level: Level,
         replayed: &'a ReplayVehicle,
     ) -> Result<Self, ReplayError> {
-        if level == Level::One {
+        let capabilities = level.capabilities();
+        if !capabilities.non_linear_rigid_body {
             return Err(ReplayError::Level { level });
         }
         let phenomena = level
@@ -51,9 +52,11 @@ impl<'a> Run<'a> {
             .without(Phenomenon::InputLimits)
             .without(Phenomenon::VoltageSag);
         let vehicle = &replayed.vehicle;
-        let nominal_voltage = match level {
-            Level::Five => Some(vehicle.require_battery("a replay at level 5")?.nominal_voltage),
-            _ => None,
+        let nominal_voltage = if capabilities.feels_voltage {
+            let needed_by = "a replay at a level that feels the voltage";
+            Some(vehicle.require_battery(needed_by)?.nominal_voltage)
+        } else {
+            None
         };
         let quadrotor = AnyQuadrotor::hovering(level, vehicle, &phenomena, Vector3::zeros(), 0.0)?;
         Ok(Self {
@@ -67,19 +70,15 @@ impl<'a> Run<'a> {
     /// Puts the body where it was measured to be.
     pub(super) fn start_anew(&mut self, k: usize) {
         let attitude = self.flight.attitude[k];
-        let body = RigidBodyState {
+        let measured = RigidBodyState {
             position: self.flight.position[k],
             velocity: attitude.conjugate().rotate(&self.flight.velocity[k]),
             attitude,
             body_rates: self.flight.inertial.body_rates[k],
         };
-        match &mut self.quadrotor {
-            // Refused when the run was made.
-            AnyQuadrotor::One(_) => {}
-            AnyQuadrotor::Two(q) => q.state.body = body,
-            AnyQuadrotor::Three(q) => q.state.body = body,
-            AnyQuadrotor::Four(q) => q.state.body = body,
-            AnyQuadrotor::Five(q) => q.state.body = body,
+        // A level without one was refused when the run was made.
+        if let Some(body) = self.quadrotor.rigid_body() {
+            *body = measured;
         }
     }
 

@@ -52,7 +52,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         let fits = Level::ALL.map(|level| {
             // What needs drag is asked for together with drag.
             let asked = PhenomenonSet::none().with(Phenomenon::Drag).with(phenomenon);
-            asked.admitted_by(level).contains(phenomenon)
+            asked.admitted_by(level.capabilities()).contains(phenomenon)
         });
         for (level, declared) in Level::ALL.into_iter().zip(fits) {
             let mut on = PhenomenonSet::none().with(phenomenon);
@@ -111,7 +111,7 @@ fn wind(shown: &mut DisplayTable, data: &mut DataTable) {
     const ADDS: &str = "mean velocity of the air, constant or stepping";
     let needs = Prerequisite::AirRelativeDrag.to_string();
     let drag = PhenomenonSet::none().with(Phenomenon::Drag);
-    let fits = Level::ALL.map(|level| drag.admitted_by(level) == drag);
+    let fits = Level::ALL.map(|level| drag.admitted_by(level.capabilities()) == drag);
     let by_itself = Level::ALL.map(|level| level.phenomena().contains(Phenomenon::Drag));
     let mark = |i: usize| match (by_itself[i], fits[i]) {
         (true, _) => "●",
