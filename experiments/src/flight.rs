@@ -4,29 +4,16 @@ use crate::item::{Context, ItemError};
 use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, CommandLimits, Level, Phenomenon, PhenomenonSet, Vehicle};
 use quad_math::TimeGrid;
+pub use quad_ndi::Law;
 use quad_ndi::{
-    AnyController, C1, C2, C3, FlightLog, FlightPlan, FlightStatus, Flyer, Pid, PidSettings, Reference,
-    Settings, TiltLaw, Trajectory, Waypoint,
+    FlightLog, FlightPlan, FlightStatus, Flyer, LoopDesign, PidSettings, Reference, Settings, Trajectory,
+    Waypoint,
 };
 use serde::Serialize;
 use std::num::NonZeroU64;
 
 /// The vehicle of the figures.
 pub const NOMINAL_VEHICLE: &str = "vehicles/qball-x4.toml";
-
-/// A controller by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Law {
-    /// The inversion of level 1.
-    C1,
-    /// The inversion of level 2.
-    C2,
-    /// The inversion of level 3.
-    C3,
-    /// Cascaded PID.
-    Pid,
-}
 
 /// What the vehicle is asked to do.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -182,18 +169,11 @@ impl Scenario {
         level: Level,
         phenomena: &PhenomenonSet,
     ) -> Result<FlightLog, ItemError> {
-        let controller: AnyController<f64> = match self.controller {
-            Law::C1 => AnyController::C1(C1::new(vehicle, &self.settings)?.into()),
-            Law::C2 => AnyController::C2(C2::new(vehicle, &self.settings)?.into()),
-            Law::C3 => AnyController::C3(C3::new(vehicle, &self.settings)?.into()),
-            Law::Pid => {
-                let settings = self
-                    .pid
-                    .as_ref()
-                    .ok_or_else(|| ItemError::new("PID without gains"))?;
-                AnyController::Pid(Pid::new(vehicle, settings)?.into())
-            }
+        let design = LoopDesign {
+            inversion: self.settings,
+            pid: self.pid.unwrap_or_default(),
         };
+        let controller = self.controller.build::<f64>(vehicle, &design)?;
         let (start, yaw, trajectory) = match &self.task {
             Task::Step { .. } => (Vector3::zeros(), 0.0, None),
             Task::Follow { waypoints } => {
@@ -209,11 +189,7 @@ impl Scenario {
             record_every: NonZeroU64::new(self.record_every).unwrap_or(NonZeroU64::MIN),
         };
         let gravity = vehicle.environment.gravity;
-        let tilt = if self.controller == Law::C1 {
-            TiltLaw::SmallAngle
-        } else {
-            TiltLaw::Exact
-        };
+        let tilt = self.controller.tilt_law();
         Ok(flyer.fly(&plan, |t| match (&self.task, &trajectory) {
             (Task::Step { position_m, yaw_rad }, _) => Reference::hold(Vector3::from(*position_m), *yaw_rad),
             (Task::Follow { .. }, Some(path)) => Reference::following(path.flat_output(t), gravity, tilt),

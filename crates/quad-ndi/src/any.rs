@@ -1,11 +1,11 @@
 //! A controller chosen at run time, with its memory.
 
+use crate::Reference;
 use crate::closed_loop::step_from;
 use crate::controller::{Controller, ControllerError};
-use crate::pid::Pid;
-use crate::{C1, C2, C3, Reference};
+use crate::law::{AnyController, ControlLaw};
 use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, InFlight, Level, QuadrotorModel};
+use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, InFlight, Level, LevelModel, WithQuadrotor};
 use quad_math::{Flat, Real};
 
 /// A controller together with what it remembers.
@@ -24,47 +24,35 @@ impl<R: Real, C: Controller<R>> From<C> for InCharge<R, C> {
     }
 }
 
-/// One of the controllers, by value: controller and memory in one, so that they can't be mismatched.
-#[derive(Clone, Debug)]
-pub enum AnyController<R: Real> {
-    /// The inversion of level 1.
-    C1(InCharge<R, C1<R>>),
-    /// The inversion of level 2.
-    C2(InCharge<R, C2<R>>),
-    /// The inversion of level 3.
-    C3(InCharge<R, C3<R>>),
-    /// Conventional cascaded PID.
-    Pid(InCharge<R, Pid<R>>),
-}
-
-/// The same expression for whichever controller is inside.
-macro_rules! each_controller {
-    ($any:expr, $inner:ident => $body:expr) => {
-        match $any {
-            AnyController::C1($inner) => $body,
-            AnyController::C2($inner) => $body,
-            AnyController::C3($inner) => $body,
-            AnyController::Pid($inner) => $body,
-        }
-    };
+/// A closed-loop step of one controller with a quadrotor of any level.
+struct Together<'a, R: Real, C: Controller<R>> {
+    in_charge: &'a mut InCharge<R, C>,
+    reference: &'a Reference<R>,
+    wind: &'a Vector3<R>,
+    h: R,
 }
 
 /// [`closed_loop_step`](crate::closed_loop_step) in place.
-///
-/// A function per pair: all twenty in one body cost 30 ns a step more, in registers that don't suffice.
-#[inline(never)]
-fn step_together<R: Real, C: Controller<R>, M: QuadrotorModel<R>>(
-    in_charge: &mut InCharge<R, C>,
-    in_flight: &mut InFlight<R, M>,
-    reference: &Reference<R>,
-    wind: &Vector3<R>,
-    h: R,
-) -> [R; 4] {
-    let now = (&in_flight.state, &in_charge.memory);
-    let next = step_from(&in_flight.model, &in_charge.controller, now, reference, wind, h);
-    in_flight.state = next.state;
-    in_charge.memory = next.memory;
-    next.commands
+impl<R: Real, C: Controller<R>> WithQuadrotor<R> for Together<'_, R, C> {
+    type Out = [R; 4];
+
+    /// A function per pair: all in one body cost 30 ns a step more, in registers that don't suffice.
+    #[inline(never)]
+    fn with<M: LevelModel<R>>(self, in_flight: &mut InFlight<R, M>) -> [R; 4] {
+        let InCharge { controller, memory } = self.in_charge;
+        let now = (&in_flight.state, &*memory);
+        let next = step_from(
+            &in_flight.model,
+            controller,
+            now,
+            self.reference,
+            self.wind,
+            self.h,
+        );
+        in_flight.state = next.state;
+        *memory = next.memory;
+        next.commands
+    }
 }
 
 impl<R: Real> AnyController<R> {
@@ -90,19 +78,23 @@ impl<R: Real> AnyController<R> {
         wind: &Vector3<R>,
         h: R,
     ) -> [R; 4] {
-        each_controller!(self, c => match quadrotor {
-            AnyQuadrotor::One(q) => step_together(c, q, reference, wind, h),
-            AnyQuadrotor::Two(q) => step_together(c, q, reference, wind, h),
-            AnyQuadrotor::Three(q) => step_together(c, q, reference, wind, h),
-            AnyQuadrotor::Four(q) => step_together(c, q, reference, wind, h),
-            AnyQuadrotor::Five(q) => step_together(c, q, reference, wind, h),
-        })
+        each_controller!(self, in_charge => quadrotor.visit(Together {
+            in_charge,
+            reference,
+            wind,
+            h,
+        }))
+    }
+
+    /// Continues when the model changes its level; `before` is what was last seen of the flight at the level before.
+    pub fn resume(&mut self, before: &Flight<R>) {
+        each_controller!(self, c => c.memory = c.controller.resumed(&c.memory, before));
     }
 
     /// The same controller with limits on its commands.
     #[must_use]
     pub fn with_limits(mut self, limits: Option<CommandLimits<R>>) -> Self {
-        each_controller!(&mut self, c => c.controller.limits = limits);
+        each_controller!(&mut self, c => c.controller = c.controller.with_limits(limits));
         self
     }
 

@@ -4,8 +4,8 @@
 //! flight computer does. [`closed_loop_step`] is that step as a pure function over any scalar;
 //! [`Flyer::fly`] repeats it on `f64`, records, and stops where the numbers stop being numbers.
 
-use crate::any::AnyController;
 use crate::controller::{Controller, ControllerError, check_pairing};
+use crate::law::AnyController;
 use crate::{Allocation, Reference};
 use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, Flight, Input, QuadrotorModel, StateOf, Vehicle};

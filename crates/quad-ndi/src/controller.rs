@@ -26,6 +26,11 @@ pub trait Controller<R: Real> {
     /// The memory of a controller switched on in flight: at rest, carrying the vehicle's weight.
     fn initial_memory(&self) -> Self::Memory;
 
+    /// The memory with which it continues when the model changes its level, from what was last seen of the flight before.
+    fn resumed(&self, memory: &Self::Memory, _before: &Flight<R>) -> Self::Memory {
+        *memory
+    }
+
     /// Commands for the next `dt` seconds.
     fn control(
         &self,

@@ -37,7 +37,8 @@
 //! | [`Decoupling`] | `u = (L_G L_f^(ν−1) h)⁻¹ (v − L_f^ν h)` by automatic differentiation | levels 1 to 3 | what the model's text says |
 //! | [`Pid`] | none: weight, inertia and allocation only | any level | nothing of coupling or lag |
 //!
-//! A controller may fly any model of its own level or above: [`check_pairing`].
+//! A controller may fly any model of its own level or above: [`check_pairing`]. [`Law`] names them; [`Law::paired`] is the inversion that
+//! belongs to a level.
 //!
 //! # Where to find an equation
 //!
@@ -70,6 +71,9 @@
 //! out of an inverted attitude. The demanded tilt of the inversions is not limited, PID's is. A wrong
 //! relative degree given to [`Decoupling`] is an error only where it makes the matrix singular.
 
+#[macro_use]
+mod law;
+
 mod any;
 mod closed_loop;
 mod controller;
@@ -86,11 +90,12 @@ pub mod settling;
 pub mod stability;
 mod trajectory;
 
-pub use any::{AnyController, InCharge};
+pub use any::InCharge;
 pub use closed_loop::{FlightLog, FlightPlan, FlightStatus, Flyer, LoopState, Record, closed_loop_step};
 pub use controller::{Allocation, Control, Controller, ControllerError, Demand, check_pairing};
 pub use generic::{Decoupling, InversionError};
 pub use inversion::{C1, C2, C3, ObserverState};
+pub use law::{AnyController, ControlLaw, Law, LoopDesign, WithLaw, WithPaired};
 pub use pid::{Pid, PidGains, PidMemory, PidSettings};
 pub use reference::{AttitudeFeedForward, FlatOutput, Reference, TiltLaw};
 pub use settings::{AttitudeSettings, Gains, LoopGains, LoopSettings, Settings, SettingsError};

@@ -19,56 +19,18 @@
 //! (structure); Åström and Hägglund, *Advanced PID Control*, chapters 3 and 8 (filter, set-point weight,
 //! back-calculation).
 
+mod settings;
 mod tuning;
 
+pub use settings::{PidGains, PidSettings};
 pub use tuning::{LoopReport, LoopTarget, StartReport, Tuned, TunedLoop, TuningError, TuningOptions, tune};
 
 use crate::controller::{Allocation, Control, Controller, ControllerError, Demand, limited, wrapped};
-use crate::{Reference, SettingsError};
+use crate::law::{AnyController, ControlLaw, LoopDesign};
+use crate::{InCharge, Reference, TiltLaw};
 use nalgebra::Vector3;
 use quad_dynamics::{CommandLimits, Flight, Level, RigidBody, Vehicle};
 use quad_math::{Flat, Real, constant};
-use serde::{Deserialize, Serialize};
-
-/// Gains of one PID loop, whose output is an acceleration (m/s² or rad/s²).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PidGains {
-    /// `k_p`, 1/s².
-    pub proportional: f64,
-    /// `k_i`, 1/s³.
-    pub integral: f64,
-    /// `k_d`, 1/s.
-    pub derivative: f64,
-}
-
-/// Gains and limits of the cascade.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PidSettings {
-    /// Height loop.
-    pub height: PidGains,
-    /// Yaw loop.
-    pub yaw: PidGains,
-    /// Horizontal position loops, x and y alike.
-    pub position: PidGains,
-    /// Roll and pitch loops.
-    pub attitude: PidGains,
-    /// Bandwidth N of the derivative filters, rad/s.
-    pub filter_bandwidth_rad_s: f64,
-    /// Largest demanded tilt `√(φ² + θ²)`, rad.
-    pub tilt_limit_rad: f64,
-    /// Rate `k_w` of the back-calculation, 1/s.
-    pub anti_windup_per_s: f64,
-    /// Set-point weight `b` of all loops with integral action, above 0 and up to 1.
-    #[serde(default = "whole")]
-    pub set_point_weight: f64,
-}
-
-/// The set point without a weight.
-const fn whole() -> f64 {
-    1.0
-}
 
 /// The loops in the order of the controller's memory.
 const LOOPS: usize = 6;
@@ -110,69 +72,6 @@ pub struct PidMemory<R: Real> {
     pub filtered: [R; LOOPS],
     /// 0 before the first call, 1 after: the first call starts the filters at the measurement.
     pub primed: R,
-}
-
-impl PidGains {
-    /// Gains that place the poles of `ÿ = u` at `(s + ω)² (s + a)`, given `ω` and `a`, rad/s: `k_p = ω² + 2ωa`,
-    /// `k_i = a ω²`, `k_d = 2ω + a`. The set-point weight that belongs to them is `ω²/k_p`.
-    pub fn placed(omega: f64, integral_pole: f64) -> Self {
-        Self {
-            proportional: omega * (omega + 2.0 * integral_pole),
-            integral: omega * omega * integral_pole,
-            derivative: 2.0 * omega + integral_pole,
-        }
-    }
-}
-
-impl PidSettings {
-    fn check(&self) -> Result<(), SettingsError> {
-        let gains = [
-            ("height", &self.height),
-            ("yaw", &self.yaw),
-            ("position", &self.position),
-            ("attitude", &self.attitude),
-        ];
-        for (key, g) in gains {
-            for value in [g.proportional, g.integral, g.derivative] {
-                if !(value.is_finite() && value >= 0.0) {
-                    return Err(SettingsError::NegativeGain { key, value });
-                }
-            }
-        }
-        for (key, value) in [
-            ("filter_bandwidth_rad_s", self.filter_bandwidth_rad_s),
-            ("tilt_limit_rad", self.tilt_limit_rad),
-            ("anti_windup_per_s", self.anti_windup_per_s),
-        ] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(SettingsError::NotPositive { key, value });
-            }
-        }
-        if self.tilt_limit_rad >= std::f64::consts::FRAC_PI_2 {
-            return Err(SettingsError::TiltLimit {
-                tilt_limit_rad: self.tilt_limit_rad,
-            });
-        }
-        if !(self.set_point_weight > 0.0 && self.set_point_weight <= 1.0) {
-            return Err(SettingsError::SetPointWeight {
-                set_point_weight: self.set_point_weight,
-            });
-        }
-        Ok(())
-    }
-
-    /// One value per loop `[x, y, z, φ, θ, ψ]`.
-    fn per_loop<R: Real>(&self, f: impl Fn(&PidGains) -> f64) -> [R; LOOPS] {
-        [
-            &self.position,
-            &self.position,
-            &self.height,
-            &self.attitude,
-            &self.attitude,
-            &self.yaw,
-        ]
-        .map(|gains| constant(f(gains)))
-    }
 }
 
 impl<R: Real> Pid<R> {
@@ -383,6 +282,23 @@ impl<R: Real> Controller<R> for Pid<R> {
         let sensed = self.sense(memory, flight, dt);
         let outer = self.outer(memory, &sensed, reference);
         self.inner(memory, &sensed, &outer, reference, dt)
+    }
+}
+
+impl<R: Real> ControlLaw<R> for Pid<R> {
+    const TILT_LAW: TiltLaw = TiltLaw::Exact;
+    const INVERTS: bool = false;
+
+    fn design(vehicle: &Vehicle, design: &LoopDesign) -> Result<Self, ControllerError> {
+        Self::new(vehicle, &design.pid)
+    }
+
+    fn with_limits(self, limits: Option<CommandLimits<R>>) -> Self {
+        Self { limits, ..self }
+    }
+
+    fn any(in_charge: InCharge<R, Self>) -> AnyController<R> {
+        AnyController::Pid(in_charge)
     }
 }
 

@@ -11,7 +11,7 @@ use quad_plot::figure::Legends;
 use quad_plot::panel::{BandPoint, ErrorBar};
 use quad_plot::style::{BLUE, Marker};
 use quad_plot::svg::Svg;
-use quad_plot::{Controller, Figure, Look, Panel, Space, controller_style, level_name, level_style};
+use quad_plot::{Figure, Look, Panel, Space, level_name, level_style, series_style};
 use quad_plot::{raster, reference_style};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -130,8 +130,8 @@ fn path(phase: f64) -> impl Iterator<Item = [f64; 3]> {
 fn space() -> Svg {
     Space::new("North *x*, m", "West −*y*, m", "Height −*z*, m")
         .line("reference", reference_style(), path(0.0))
-        .line("NDI", controller_style(Controller::Ndi), path(0.1))
-        .line("PID", controller_style(Controller::Pid), path(0.25))
+        .line("NDI", series_style(0), path(0.1))
+        .line("PID", series_style(1), path(0.25))
         .markers("start", level_style(3), path(0.0).take(1))
         .draw()
 }

@@ -4,7 +4,7 @@
 //!   reference lines, logarithmic axes) and [`space::Space`]s (3-D lines), with labels and legends.
 //! - [`diagram::Diagram`]: blocks, arrows, arcs and text for block diagrams and sketches.
 //! - [`sketch::Sketch`]: things in space on a diagram: lines, boxes and frames given in W.
-//! - [`style`]: the looks: [`style::level_style`], [`style::reference_style`], [`style::controller_style`].
+//! - [`style`]: the looks: [`style::level_style`], [`style::reference_style`], [`style::series_style`].
 //! - [`text`]: the rich text of all labels: `*z*` italic, `_{ref}` subscript, `^{2}` superscript.
 //! - [`font`]: the embedded fonts, and how wide words are in them; [`raster`]: PNG with them, by resvg.
 //!
@@ -49,7 +49,7 @@ pub use diagram::Diagram;
 pub use figure::Figure;
 pub use panel::Panel;
 pub use space::Space;
-pub use style::{Controller, Look, controller_style, level_name, level_style, reference_style, series_style};
+pub use style::{Look, level_name, level_style, reference_style, series_style};
 
 #[cfg(test)]
 mod tests;

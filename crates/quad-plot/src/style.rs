@@ -125,23 +125,6 @@ pub fn mix(from: &str, to: &str, share: f64) -> String {
     format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])
 }
 
-/// The controllers that are compared with each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Controller {
-    /// Non-linear dynamic inversion.
-    Ndi,
-    /// Proportional, integral, derivative.
-    Pid,
-}
-
-/// The look of a controller where NDI and PID are compared.
-pub const fn controller_style(controller: Controller) -> Look {
-    match controller {
-        Controller::Ndi => series_style(0),
-        Controller::Pid => series_style(1),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -58,8 +58,8 @@ pub use assemble::{AgentInfo, AgentKind, Built};
 pub use error::{EstimatorFault, KeyError, ScenarioError};
 pub use file::{
     Algorithm, AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, ErrorFile, EstimatorFile,
-    EtsFile, Format, InitialDeviationFile, InitialErrorFile, Law, LevelChange, LimitsFile, LoopFile,
-    OptimiseFile, OutputFile, PID, POSITION, PathFile, Point, Polynomial, ProcessNoiseFile, QuadrotorFile,
+    EtsFile, Format, InitialDeviationFile, InitialErrorFile, LawChoice, LevelChange, LimitsFile, LoopFile,
+    OptimiseFile, OutputFile, POSITION, PathFile, Point, Polynomial, ProcessNoiseFile, QuadrotorFile,
     ReferenceFile, Scenario, SensorFile, SensorKind, SensorsFile, SetPoint, StartFile, StopFile, TargetFile,
     TurbulenceFile, VariableFile, WeightsFile, WindFile, WindStep,
 };

@@ -13,9 +13,10 @@ use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
 use quad_dynamics::Level;
 use quad_kinematics::EulerAngles;
+use quad_ndi::Law;
 use quad_plot::figure::Legends;
 use quad_plot::{Figure, Panel, level_name, level_style};
-use scenario::{End, Files, Law, Scenario};
+use scenario::{End, Files, Scenario};
 use serde_json::json;
 use sifre::Recording;
 use sifre::black_box::MemoryBox;
@@ -155,7 +156,7 @@ fn differences(flights: &[(Scenario, Flown)], place: usize, agent: &str) -> Vec<
         };
         Difference {
             level: flown.level,
-            law: scenario.quadrotor[place].controller.kind,
+            law: scenario.quadrotor[place].controller.kind.at(flown.level),
             times_s: flown.recording.times_s().take(rows).collect(),
             position_m: (0..rows).map(position).collect(),
             attitude_deg: (0..rows).map(attitude).collect(),

@@ -2,14 +2,15 @@
 
 use crate::exit::Failure;
 use quad_dynamics::{Level, Phenomenon, PhenomenonSet};
-use scenario::{Law, Scenario};
+use quad_ndi::Law;
+use scenario::Scenario;
 
 /// The controllers that fly the quadrotors at a level: those that belong to it, or the scenario's where they may fly.
 pub(crate) fn laws(scenario: &Scenario, level: Level, keep: bool) -> Vec<Law> {
     let one = |quadrotor: &scenario::QuadrotorFile| {
         let given = quadrotor.controller.kind.at(quadrotor.level);
         let kept = keep && given.lowest_level() <= level;
-        if kept { given } else { Law::Paired.at(level) }
+        if kept { given } else { Law::paired(level) }
     };
     scenario.quadrotor.iter().map(one).collect()
 }
@@ -33,7 +34,7 @@ pub(crate) fn at(
             quadrotor.wind.shear = None;
             quadrotor.wind.turbulence = None;
         }
-        quadrotor.controller.kind = *law;
+        quadrotor.controller.kind = (*law).into();
     }
     scenario
 }

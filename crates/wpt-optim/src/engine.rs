@@ -1,12 +1,10 @@
 //! The same flight in the engine: with black boxes, other agents, stops and everything else that the engine offers.
 
 use crate::error::ProblemError;
-use crate::fleet::Fleet;
-use crate::mission::Pairing;
 use crate::path::Path;
 use crate::problem::Problem;
-use crate::rollout::{aimed, launched};
-use quad_ndi::{AnyController, Reference};
+use crate::rollout::aimed;
+use quad_ndi::Reference;
 use sifre::quadrotor::{QuadrotorError, Setup, Start};
 use sifre::{Ets, EtsSetup, Facing, Guidance, Member, Moment, Quadrotor, Simulation, SimulationError, Tilt};
 
@@ -60,29 +58,8 @@ impl Problem {
     pub fn simulation(&self, x: &[f64]) -> Result<Simulation, EngineError> {
         let path = self.path_of(x)?;
         let mission = self.mission();
-        let (pilot, flight) = match &self.fleet {
-            Fleet::One(a) => (
-                AnyController::C1(a.controller.into()),
-                launched(&a.model, &path).0,
-            ),
-            Fleet::Two(a) => (
-                AnyController::C2(a.controller.into()),
-                launched(&a.model, &path).0,
-            ),
-            Fleet::Three(a) => (
-                AnyController::C3(a.controller.into()),
-                launched(&a.model, &path).0,
-            ),
-            Fleet::Four(a) => (
-                AnyController::C3(a.controller.into()),
-                launched(&a.model, &path).0,
-            ),
-            Fleet::Five(a) => (
-                AnyController::C3(a.controller.into()),
-                launched(&a.model, &path).0,
-            ),
-        };
-        debug_assert_eq!(path.tilt_law, Pairing::of(self.level()).tilt_law());
+        let pilot = self.fleet.pilot();
+        let flight = self.fleet.launched(&path);
         let guidance = Facing::agent(Crossing(path), STATION);
         let setup = Setup::new(QUADROTOR, &mission.vehicle, self.level(), pilot, guidance);
         let start = Start {

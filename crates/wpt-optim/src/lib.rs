@@ -75,7 +75,7 @@ pub use cost::{BEND, FAILURE, HEAVIEST, LOST_M, Penalties, Terms, Weights};
 pub use decision::Decision;
 pub use engine::{EngineError, QUADROTOR, STATION};
 pub use error::ProblemError;
-pub use mission::{Ends, Mission, Pairing};
+pub use mission::{Ends, Mission};
 pub use nominal::{Choice, HALF_CROSSING_M, HEIGHT_M, POSITION_SETTLING_S};
 pub use outcome::{Failure, Histories, History, Outcome};
 pub use path::Path;

@@ -8,9 +8,9 @@ use crate::condition::{Condition, Side};
 use crate::error::ProblemError;
 use ets::{FrameClock, Station};
 use nalgebra::Vector3;
-use quad_dynamics::{Level, Vehicle};
+use quad_dynamics::Vehicle;
 use quad_math::{Real, TimeGrid, constant};
-use quad_ndi::{Boundary, Leg, Settings, TiltLaw};
+use quad_ndi::{Boundary, Leg, Settings};
 use serde::{Deserialize, Serialize};
 use sifre::{StepSize, steps};
 use std::sync::Arc;
@@ -51,36 +51,6 @@ pub struct Mission {
     pub step: StepSize,
     /// Step of the station: a multiple of the vehicle's. The cost is sampled at its instants.
     pub station_step: StepSize,
-}
-
-/// Which controller flies a level, and the tilt law of its feed-forward.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pairing {
-    /// c1 on level 1, small angles.
-    C1,
-    /// c2 on level 2.
-    C2,
-    /// c3 on levels 3 to 5.
-    C3,
-}
-
-impl Pairing {
-    /// The controller of a level.
-    pub fn of(level: Level) -> Self {
-        match level {
-            Level::One => Self::C1,
-            Level::Two => Self::C2,
-            Level::Three | Level::Four | Level::Five => Self::C3,
-        }
-    }
-
-    /// The tilt law of its feed-forward.
-    pub fn tilt_law(self) -> TiltLaw {
-        match self {
-            Self::C1 => TiltLaw::SmallAngle,
-            Self::C2 | Self::C3 => TiltLaw::Exact,
-        }
-    }
 }
 
 impl Ends {

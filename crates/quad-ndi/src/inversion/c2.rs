@@ -2,7 +2,8 @@
 
 use super::{EulerKinematics, horizontal_demand, moment_for, tilt_cosine, tilt_errors};
 use crate::controller::{Allocation, Control, Controller, ControllerError, Demand, limited, wrapped};
-use crate::{Gains, Reference, Settings};
+use crate::law::{AnyController, ControlLaw, LoopDesign};
+use crate::{Gains, InCharge, Reference, Settings, TiltLaw};
 use nalgebra::Vector3;
 use quad_dynamics::{CommandLimits, Flight, Level, RigidBody, Vehicle};
 use quad_math::Real;
@@ -107,5 +108,22 @@ impl<R: Real> Controller<R> for C2<R> {
             commands: limited(self.limits.as_ref(), commands),
             memory: (),
         }
+    }
+}
+
+impl<R: Real> ControlLaw<R> for C2<R> {
+    const TILT_LAW: TiltLaw = TiltLaw::Exact;
+    const INVERTS: bool = true;
+
+    fn design(vehicle: &Vehicle, design: &LoopDesign) -> Result<Self, ControllerError> {
+        Self::new(vehicle, &design.inversion)
+    }
+
+    fn with_limits(self, limits: Option<CommandLimits<R>>) -> Self {
+        Self { limits, ..self }
+    }
+
+    fn any(in_charge: InCharge<R, Self>) -> AnyController<R> {
+        AnyController::C2(in_charge)
     }
 }

@@ -2,7 +2,8 @@
 
 use super::{EulerKinematics, horizontal_demand, tilt_cosine, tilt_errors};
 use crate::controller::{Allocation, Control, Controller, ControllerError, Demand, limited, wrapped};
-use crate::{Gains, Reference, Settings};
+use crate::law::{AnyController, ControlLaw, LoopDesign};
+use crate::{Gains, InCharge, Reference, Settings, TiltLaw};
 use nalgebra::Vector3;
 use quad_dynamics::{CommandLimits, Flight, Level, RigidBody, Vehicle};
 use quad_math::{Flat, Real, constant};
@@ -145,6 +146,13 @@ impl<R: Real> Controller<R> for C3<R> {
     type Memory = ObserverState<R>;
     const LEVEL: Level = Level::Three;
 
+    /// With the thrusts that the flight really had, not with those of the last call.
+    fn resumed(&self, memory: &ObserverState<R>, before: &Flight<R>) -> ObserverState<R> {
+        ObserverState {
+            thrusts: before.thrusts.unwrap_or(memory.thrusts),
+        }
+    }
+
     fn initial_memory(&self) -> ObserverState<R> {
         let weight = self.body.mass * self.body.gravity;
         let hover = Demand {
@@ -183,6 +191,23 @@ impl<R: Real> Controller<R> for C3<R> {
             commands,
             memory: ObserverState { thrusts },
         }
+    }
+}
+
+impl<R: Real> ControlLaw<R> for C3<R> {
+    const TILT_LAW: TiltLaw = TiltLaw::Exact;
+    const INVERTS: bool = true;
+
+    fn design(vehicle: &Vehicle, design: &LoopDesign) -> Result<Self, ControllerError> {
+        Self::new(vehicle, &design.inversion)
+    }
+
+    fn with_limits(self, limits: Option<CommandLimits<R>>) -> Self {
+        Self { limits, ..self }
+    }
+
+    fn any(in_charge: InCharge<R, Self>) -> AnyController<R> {
+        AnyController::C3(in_charge)
     }
 }
 

@@ -10,11 +10,12 @@ mod station;
 pub(crate) use guidance::Task;
 
 use crate::error::ScenarioError;
-use crate::file::{Law, OutputFile, Scenario, StopFile};
+use crate::file::{OutputFile, Scenario, StopFile};
 use crate::library::Files;
 use ets::Station;
 use nalgebra::Vector3;
 use quad_dynamics::{Level, Vehicle};
+use quad_ndi::Law;
 use sifre::black_box::Selection;
 use sifre::{Member, StepSize};
 use std::sync::Arc;
@@ -68,7 +69,7 @@ pub enum AgentKind {
         vehicle: Arc<Vehicle>,
         /// The level that it begins at.
         level: Level,
-        /// Who flies it; never [`Law::Paired`].
+        /// Who flies it.
         law: Law,
     },
     /// An energy transmission system.

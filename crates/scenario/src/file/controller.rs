@@ -1,24 +1,93 @@
 //! Controllers in a scenario file.
 
-use quad_ndi::{AttitudeSettings, LoopSettings, PidGains, PidSettings, Settings};
+use quad_dynamics::Level;
+use quad_ndi::{AttitudeSettings, Law, LoopDesign, LoopSettings, PidSettings, Settings};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 
-/// Which control law.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Law {
-    /// Dynamic inversion of level 1, for models of any level.
-    C1,
-    /// Dynamic inversion of level 2, for levels 2 to 5.
-    C2,
-    /// Dynamic inversion of level 3, for levels 3 to 5.
-    C3,
-    /// Conventional cascaded PID, for any level.
-    Pid,
-    /// The inversion that belongs to the level: c1 at level 1, c2 at level 2, c3 above.
+/// Which control law: one by its name, or the inversion that belongs to the level.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LawChoice {
+    /// This one.
+    Given(Law),
+    /// The inversion that belongs to the level.
     #[default]
     Paired,
+}
+
+impl LawChoice {
+    /// What stands for the inversion that belongs to the level.
+    const PAIRED: &str = "paired";
+
+    /// All names that a file may use.
+    const NAMES: [&str; Law::ALL.len() + 1] = {
+        let mut names = [Self::PAIRED; Law::ALL.len() + 1];
+        let mut i = 0;
+        while i < Law::ALL.len() {
+            names[i] = Law::ALL[i].name();
+            i += 1;
+        }
+        names
+    };
+
+    /// The law at a level.
+    #[must_use]
+    pub const fn at(self, level: Level) -> Law {
+        match self {
+            Self::Given(law) => law,
+            Self::Paired => Law::paired(level),
+        }
+    }
+
+    /// The name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Given(law) => law.name(),
+            Self::Paired => Self::PAIRED,
+        }
+    }
+}
+
+impl From<Law> for LawChoice {
+    fn from(law: Law) -> Self {
+        Self::Given(law)
+    }
+}
+
+impl Serialize for LawChoice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+impl<'de> Deserialize<'de> for LawChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        if name == Self::PAIRED {
+            return Ok(Self::Paired);
+        }
+        let law = Law::ALL.into_iter().find(|law| law.name() == name);
+        law.map(Self::Given)
+            .ok_or_else(|| D::Error::unknown_variant(&name, &Self::NAMES))
+    }
+}
+
+impl JsonSchema for LawChoice {
+    fn schema_name() -> Cow<'static, str> {
+        "Law".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let one = |name: &str, description: &str| json_schema!({ "type": "string", "const": name, "description": description });
+        let laws = Law::ALL.map(|law| one(law.name(), law.summary()));
+        let pairs = Level::ALL.map(|level| format!("{} at {level}", Law::paired(level)));
+        let paired = format!("The inversion that belongs to the level: {}.", pairs.join(", "));
+        let all: Vec<Schema> = laws.into_iter().chain([one(Self::PAIRED, &paired)]).collect();
+        json_schema!({ "description": "Which control law.", "oneOf": all })
+    }
 }
 
 /// A controller and how fast its loops are asked to be. The gains follow from the vehicle.
@@ -26,7 +95,7 @@ pub enum Law {
 #[serde(deny_unknown_fields, default)]
 pub struct ControllerFile {
     /// Which control law.
-    pub kind: Law,
+    pub kind: LawChoice,
     /// The vehicle that it believes it flies, if not the one that it does fly: a name or a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub vehicle: Option<String>,
@@ -95,20 +164,18 @@ impl AttitudeFile {
 }
 
 impl ControllerFile {
-    /// Settings of an inversion: the defaults of the source's captions where the file is silent, but for the horizontal
-    /// loop.
-    pub(crate) fn settings(&self) -> Settings {
-        Settings {
-            height: self.height.or(LoopSettings::default()),
-            yaw: self.yaw.or(LoopSettings::default()),
-            position: self.position.or(POSITION),
-            attitude: self.attitude.or(AttitudeSettings::default()),
+    /// What its loops are asked to achieve: the defaults of the source's captions where the file is silent, but for the horizontal
+    /// loop of an inversion.
+    pub(crate) fn design(&self) -> LoopDesign {
+        LoopDesign {
+            inversion: Settings {
+                height: self.height.or(LoopSettings::default()),
+                yaw: self.yaw.or(LoopSettings::default()),
+                position: self.position.or(POSITION),
+                attitude: self.attitude.or(AttitudeSettings::default()),
+            },
+            pid: self.pid.unwrap_or_default(),
         }
-    }
-
-    /// Gains of a PID cascade.
-    pub(crate) fn pid(&self) -> PidSettings {
-        self.pid.unwrap_or(PID)
     }
 }
 
@@ -119,27 +186,6 @@ pub const POSITION: LoopSettings = LoopSettings {
     damping: 1.0,
     pole_ratio: 20.0,
 };
-
-/// The PID gains that come with the project, rounded from what `quad_ndi::pid::tune` finds with seed 1 at level 5
-/// of the Qball-X4 at constant voltage, commands limited. They are per unit of mass and inertia, so that they carry over to other vehicles.
-pub const PID: PidSettings = PidSettings {
-    height: gains(16.2, 13.0, 6.81),
-    yaw: gains(32.2, 25.5, 12.0),
-    position: gains(4.27, 1.32, 4.26),
-    attitude: gains(72.5, 110.0, 15.1),
-    filter_bandwidth_rad_s: 100.0,
-    tilt_limit_rad: std::f64::consts::FRAC_PI_6,
-    anti_windup_per_s: 2.0,
-    set_point_weight: 0.5,
-};
-
-const fn gains(proportional: f64, integral: f64, derivative: f64) -> PidGains {
-    PidGains {
-        proportional,
-        integral,
-        derivative,
-    }
-}
 
 /// A positive number with its description.
 fn positive(description: &str) -> Schema {

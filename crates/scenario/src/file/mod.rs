@@ -9,7 +9,7 @@ mod reference;
 mod sensor;
 mod station;
 
-pub use controller::{AttitudeFile, ControllerFile, Law, LoopFile, PID, POSITION};
+pub use controller::{AttitudeFile, ControllerFile, LawChoice, LoopFile, POSITION};
 pub use estimator::EstimatorFile;
 pub use optimise::{Algorithm, LimitsFile, OptimiseFile, VariableFile, WeightsFile};
 pub use output::{BoxLimits, Format, OutputFile, StopFile};

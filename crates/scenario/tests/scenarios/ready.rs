@@ -193,7 +193,7 @@ fn exact_payload() {
     let times: Vec<f64> = flown.recording.times_s().collect();
     let pairs = times.windows(2).zip(sags.windows(2));
     let area: f64 = pairs.map(|(t, e)| 0.5 * (e[0] + e[1]) * (t[1] - t[0])).sum();
-    let expected = surplus / (vehicle.airframe.mass * scenario::PID.height.integral);
+    let expected = surplus / (vehicle.airframe.mass * quad_ndi::PidSettings::default().height.integral);
     // Trapezoids of 20 ms under a curve of rates up to 7 rad/s: h² e'(0) / 12 and less.
     assert!(
         (area / expected - 1.0).abs() < 1e-3,

@@ -16,7 +16,8 @@ use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, Template, setting};
 use crate::{drawing, interrupt, measure, model, report};
 use quad_dynamics::{Level, PhenomenonSet};
-use scenario::{End, Files, Law, Scenario};
+use quad_ndi::Law;
+use scenario::{End, Files, Scenario};
 use std::path::PathBuf;
 use study::attribution::{Attribution, AttributionError, Parts};
 

@@ -4,11 +4,11 @@ use super::{Controllers, Explained, Pair};
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
 use quad_dynamics::Feature;
+use quad_ndi::Law;
 use quad_plot::figure::Legends;
 use quad_plot::panel::Bar;
 use quad_plot::style::{BLUE, Marker};
 use quad_plot::{Figure, Panel, series_style};
-use scenario::Law;
 use serde_json::{Value, json};
 use study::attribution::Share;
 

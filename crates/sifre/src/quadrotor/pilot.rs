@@ -73,11 +73,8 @@ impl Pilot for AnyController<f64> {
         AnyController::fly(self, quadrotor, reference, wind, now.step_s)
     }
 
-    /// c3 goes on with the thrusts that the flight really had, not with those of its last call.
     fn level_changed(&mut self, before: &Flight<f64>) {
-        if let (Self::C3(c3), Some(thrusts)) = (self, before.thrusts) {
-            c3.memory.thrusts = thrusts;
-        }
+        self.resume(before);
     }
 
     fn memory(&self) -> Vec<f64> {

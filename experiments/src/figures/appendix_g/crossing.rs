@@ -3,7 +3,7 @@
 use crate::item::ItemError;
 use ets::Station;
 use quad_dynamics::{Level, Vehicle};
-use quad_ndi::{AnyController, C1, C2, C3, Settings, TiltLaw, Waypoint};
+use quad_ndi::{AnyController, Law, LoopDesign, PidSettings, Settings, TiltLaw, Waypoint};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{Setup, Start};
 use sifre::{Ets, EtsSetup, Facing, Member, Mission, Quadrotor, Recording, Simulation, StepSize, steps};
@@ -28,21 +28,12 @@ pub(in crate::figures) fn controller(
     level: Level,
     vehicle: &Vehicle,
 ) -> Result<(AnyController<f64>, TiltLaw), ItemError> {
-    let settings = Settings::default();
-    Ok(match level {
-        Level::One => (
-            AnyController::C1(C1::new(vehicle, &settings)?.into()),
-            TiltLaw::SmallAngle,
-        ),
-        Level::Two => (
-            AnyController::C2(C2::new(vehicle, &settings)?.into()),
-            TiltLaw::Exact,
-        ),
-        _ => (
-            AnyController::C3(C3::new(vehicle, &settings)?.into()),
-            TiltLaw::Exact,
-        ),
-    })
+    let law = Law::paired(level);
+    let design = LoopDesign {
+        inversion: Settings::default(),
+        pid: PidSettings::default(),
+    };
+    Ok((law.build(vehicle, &design)?, law.tilt_law()))
 }
 
 /// The crossing at a level, every step `refinement` times shorter than declared.

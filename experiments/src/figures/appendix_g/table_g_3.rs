@@ -5,8 +5,8 @@ use crate::drawing::{DisplayTable, Drawing};
 use crate::figures::chapter_7::mission::problem;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use quad_dynamics::Level;
-use quad_ndi::{Gains, LoopGains, TiltLaw};
-use wpt_optim::{Choice, Pairing};
+use quad_ndi::{Gains, Law, LoopGains, TiltLaw};
+use wpt_optim::Choice;
 
 /// The table.
 pub(super) const ITEM: Item = Item {
@@ -49,17 +49,14 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         "natural_frequency_rad_s",
         "pole_rad_s",
     ]);
-    for (pairing, name, levels) in [
-        (Pairing::C1, "c1", "1"),
-        (Pairing::C2, "c2", "2"),
-        (Pairing::C3, "c3", "3 to 5"),
-    ] {
+    for (law, levels) in [(Law::C1, "1"), (Law::C2, "2"), (Law::C3, "3 to 5")] {
+        let name = law.name();
         let settings = problem(context, Choice::Two, 20.0, Level::One)?
             .mission()
             .settings;
         let gains: Gains<f64> = settings.gains()?;
-        let third = pairing == Pairing::C3;
-        let tilt = match pairing.tilt_law() {
+        let third = law == Law::C3;
+        let tilt = match law.tilt_law() {
             TiltLaw::SmallAngle => "small angles",
             TiltLaw::Exact => "exact",
         };

@@ -7,7 +7,7 @@ use crate::drawing::Drawing;
 use crate::flight::{Law, Scenario, completed, series};
 use crate::item::{Context, ItemError};
 use crate::plot::svg::Svg;
-use crate::plot::{Controller, Figure, Look, Panel, controller_style};
+use crate::plot::{Figure, Look, Panel, series_style};
 use quad_dynamics::{Level, Phenomenon};
 use quad_ndi::metrics::StepMetrics;
 use quad_ndi::pid::{self, TuningOptions};
@@ -65,12 +65,8 @@ pub(super) fn fly(context: &Context, ndi: Scenario) -> Result<Pair, ItemError> {
         ..ndi.clone()
     };
     let flights = [
-        (
-            "NDI (c3)",
-            controller_style(Controller::Ndi),
-            ndi.fly(context, FLOWN)?,
-        ),
-        ("PID", controller_style(Controller::Pid), pid.fly(context, FLOWN)?),
+        ("NDI (c3)", series_style(0), ndi.fly(context, FLOWN)?),
+        ("PID", series_style(1), pid.fly(context, FLOWN)?),
     ];
     // The scenario file keeps both: the settings of the inversion and the gains of PID.
     Ok(Pair {
