@@ -11,7 +11,7 @@ use quad_dynamics::{
     QuadrotorModel, Vehicle,
 };
 use quad_math::{Batch, F32x8, F64x4, Real, constant, rk4_step};
-use quad_ndi::{C1, C3, Controller, LoopState, Reference, Settings, closed_loop_step};
+use quad_ndi::{Airborne, C1, C3, ClosedLoop, Controller, InCharge, Reference, Settings};
 
 fn main() {
     println!("batches run on {}", quad_math::instruction_set());
@@ -74,14 +74,17 @@ fn step<R: Real, M: LevelModel<R>>(bencher: Bencher) {
     });
 }
 
-fn closed_loop<R: Real, M: LevelModel<R>, C: Controller<R>>(bencher: Bencher, controller: C) {
+fn closed_loop<R: Real, M: LevelModel<R>, C: Controller<R> + Copy>(bencher: Bencher, controller: C) {
     let model: M = model();
     let hover = model.hover(Vector3::zeros(), R::zero());
-    let start = LoopState {
-        state: hover.state,
-        memory: controller.initial_memory(),
-        commands: hover.input.commands,
+    let start = ClosedLoop {
+        plant: Airborne {
+            model: &model,
+            state: hover.state,
+        },
+        feedback: InCharge::from(controller),
     };
+    let still = Input::still_air([R::zero(); 4]);
     let reference = Reference::hold(
         Vector3::new(constant(0.3), constant(-0.2), constant(-0.5)),
         constant(0.2),
@@ -89,8 +92,7 @@ fn closed_loop<R: Real, M: LevelModel<R>, C: Controller<R>>(bencher: Bencher, co
     bencher.bench_local(|| {
         let mut now = black_box(start);
         for _ in 0..STEPS {
-            let (wind, h) = (Vector3::zeros(), constant(STEP_S));
-            now = closed_loop_step(&model, &controller, &now, black_box(&reference), &wind, h);
+            now.step(black_box(&reference), &still, constant(STEP_S));
         }
         now
     });
@@ -113,7 +115,7 @@ macro_rules! rows {
             }
 
             #[divan::bench]
-            fn closed_loop_step(bencher: Bencher) {
+            fn closed_loop(bencher: Bencher) {
                 let controller = $controller::<$scalar>::new(&Vehicle::qball_x4(), &Settings::default());
                 let controller = controller.expect("default settings are valid");
                 super::closed_loop::<$scalar, $level<$scalar>, _>(bencher, controller);

@@ -1,11 +1,11 @@
 //! A controller chosen at run time, with its memory.
 
 use crate::Reference;
-use crate::closed_loop::step_from;
+use crate::closed_loop::{ClosedLoop, Feedback};
 use crate::controller::{Controller, ControllerError};
 use crate::law::{AnyController, ControlLaw};
 use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, InFlight, Level, LevelModel, WithQuadrotor};
+use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, InFlight, Input, Level, LevelModel, WithQuadrotor};
 use quad_math::{Flat, Real};
 
 /// A controller together with what it remembers.
@@ -32,26 +32,18 @@ struct Together<'a, R: Real, C: Controller<R>> {
     h: R,
 }
 
-/// [`closed_loop_step`](crate::closed_loop_step) in place.
 impl<R: Real, C: Controller<R>> WithQuadrotor<R> for Together<'_, R, C> {
     type Out = [R; 4];
 
     /// A function per pair: all in one body cost 30 ns a step more, in registers that don't suffice.
     #[inline(never)]
-    fn with<M: LevelModel<R>>(self, in_flight: &mut InFlight<R, M>) -> [R; 4] {
-        let InCharge { controller, memory } = self.in_charge;
-        let now = (&in_flight.state, &*memory);
-        let next = step_from(
-            &in_flight.model,
-            controller,
-            now,
-            self.reference,
-            self.wind,
-            self.h,
-        );
-        in_flight.state = next.state;
-        *memory = next.memory;
-        next.commands
+    fn with<M: LevelModel<R>>(self, quadrotor: &mut InFlight<R, M>) -> [R; 4] {
+        let mut both = ClosedLoop {
+            plant: quadrotor,
+            feedback: self.in_charge,
+        };
+        let air = Input::in_wind([R::zero(); 4], *self.wind);
+        both.step(self.reference, &air, self.h)
     }
 }
 
@@ -60,13 +52,11 @@ impl<R: Real> AnyController<R> {
     #[inline]
     pub fn update(&mut self, flight: &Flight<R>, reference: &Reference<R>, dt: R) -> [R; 4] {
         each_controller!(self, c => {
-            let answer = c.controller.control(&c.memory, flight, reference, dt);
-            c.memory = answer.memory;
-            answer.commands
+            c.commands(flight, reference, dt)
         })
     }
 
-    /// One closed-loop step of `h` seconds with a quadrotor of any level: [`closed_loop_step`](crate::closed_loop_step) by value. Gives the
+    /// One closed-loop step of `h` seconds with a quadrotor of any level: [`ClosedLoop::step`] by value. Gives the
     /// commands that were held over the step.
     ///
     /// Controller and model are compiled into one step for every pair, which is faster than

@@ -1,57 +1,155 @@
-//! Model and controller together: the pure step, and a flight on an exact time grid.
+//! Vehicle and controller together: the step of a closed loop, and a flight on an exact time grid.
+//!
+//! ```text
+//! look       seen = flight(x_k)
+//! decide     u, memory = controller(memory, seen, reference)
+//! advance    x_{k+1} = RK4(x_k, u + what acts beside the controller), held over h
+//! ```
 //!
 //! The controller samples the flight at the start of each step and its commands are held over it, as a
-//! flight computer does. [`closed_loop_step`] is that step as a pure function over any scalar;
-//! [`Flyer::fly`] repeats it on `f64`, records, and stops where the numbers stop being numbers.
+//! flight computer does. [`ClosedLoop::step`] is that step over any scalar, for types or values known at run time;
+//! [`Flyer::fly`] repeats it on `f64`, records, and stops at the first non-finite number.
 
+use crate::any::InCharge;
 use crate::controller::{Controller, ControllerError, check_pairing};
 use crate::law::AnyController;
 use crate::{Allocation, Reference};
-use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, Flight, Input, QuadrotorModel, StateOf, Vehicle};
+use quad_dynamics::{AnyQuadrotor, Flight, InFlight, Input, QuadrotorModel, StateOf, Vehicle};
 use quad_math::{FixedStep, Real, TimeGrid};
 use std::num::NonZeroU64;
 
-/// Model state, controller memory and the commands in force after one closed-loop step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoopState<R: Real, X, Memory> {
-    /// State of the model.
-    pub state: X,
-    /// Memory of the controller.
-    pub memory: Memory,
-    /// Zeroed commands that were held over the step.
-    pub commands: [R; 4],
+/// What a controller flies: something that can be looked at and advanced.
+pub trait Plant<R: Real> {
+    /// What can be seen of it.
+    fn flight(&self) -> Flight<R>;
+
+    /// Flies one RK4 step of `h` seconds with the input held.
+    fn advance(&mut self, input: &Input<R>, h: R);
 }
 
-/// One step of `h` seconds: the controller looks once, the model flies with its commands held (RK4).
-#[inline(always)]
-pub fn closed_loop_step<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
-    model: &M,
-    controller: &C,
-    now: &LoopState<R, StateOf<R, M>, C::Memory>,
-    reference: &Reference<R>,
-    wind: &Vector3<R>,
-    h: R,
-) -> LoopState<R, StateOf<R, M>, C::Memory> {
-    step_from(model, controller, (&now.state, &now.memory), reference, wind, h)
+/// What closes a loop: a controller together with what it remembers.
+pub trait Feedback<R: Real> {
+    /// Zeroed rotor commands for the next `h` seconds.
+    fn commands(&mut self, seen: &Flight<R>, reference: &Reference<R>, h: R) -> [R; 4];
 }
 
-/// The same from a state and a memory, wherever they are.
-#[inline(always)]
-pub(crate) fn step_from<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
-    model: &M,
-    controller: &C,
-    (state, memory): (&StateOf<R, M>, &C::Memory),
-    reference: &Reference<R>,
-    wind: &Vector3<R>,
-    h: R,
-) -> LoopState<R, StateOf<R, M>, C::Memory> {
-    let answer = controller.control(memory, &model.flight(state), reference, h);
-    let input = Input::in_wind(answer.commands, *wind);
-    LoopState {
-        state: FixedStep::Rk4.step(model, state, &input, h),
-        memory: answer.memory,
-        commands: answer.commands,
+/// A vehicle and what commands it.
+#[derive(Clone, Copy, Debug)]
+pub struct ClosedLoop<P, F> {
+    /// The vehicle.
+    pub plant: P,
+    /// The controller.
+    pub feedback: F,
+}
+
+impl<P, F> ClosedLoop<P, F> {
+    /// One step of `h` seconds; gives the controller's commands.
+    ///
+    /// `beside` is what acts beside the controller: the air, and offsets that are added to its commands.
+    #[inline(always)]
+    pub fn step<R: Real>(&mut self, reference: &Reference<R>, beside: &Input<R>, h: R) -> [R; 4]
+    where
+        P: Plant<R>,
+        F: Feedback<R>,
+    {
+        let seen = self.plant.flight();
+        self.step_as_seen(&seen, reference, beside, h)
+    }
+
+    /// The same where what the controller sees is known already, or is not the truth.
+    #[inline(always)]
+    pub fn step_as_seen<R: Real>(
+        &mut self,
+        seen: &Flight<R>,
+        reference: &Reference<R>,
+        beside: &Input<R>,
+        h: R,
+    ) -> [R; 4]
+    where
+        P: Plant<R>,
+        F: Feedback<R>,
+    {
+        let commands = self.feedback.commands(seen, reference, h);
+        let input = Input {
+            commands: std::array::from_fn(|i| commands[i] + beside.commands[i]),
+            ..*beside
+        };
+        self.plant.advance(&input, h);
+        commands
+    }
+}
+
+/// A vehicle in flight whose model is borrowed.
+#[derive(Debug)]
+pub struct Airborne<'a, R: Real, M: QuadrotorModel<R>> {
+    /// The model.
+    pub model: &'a M,
+    /// Its state.
+    pub state: StateOf<R, M>,
+}
+
+/// Written out, since a derived copy would ask the same of the model.
+impl<R: Real, M: QuadrotorModel<R>> Clone for Airborne<'_, R, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R: Real, M: QuadrotorModel<R>> Copy for Airborne<'_, R, M> {}
+
+impl<R: Real, M: QuadrotorModel<R>> Plant<R> for Airborne<'_, R, M> {
+    #[inline(always)]
+    fn flight(&self) -> Flight<R> {
+        self.model.flight(&self.state)
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, input: &Input<R>, h: R) {
+        self.state = FixedStep::Rk4.step(self.model, &self.state, input, h);
+    }
+}
+
+impl<R: Real, M: QuadrotorModel<R>> Plant<R> for &mut InFlight<R, M> {
+    #[inline(always)]
+    fn flight(&self) -> Flight<R> {
+        self.model.flight(&self.state)
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, input: &Input<R>, h: R) {
+        self.state = FixedStep::Rk4.step(&self.model, &self.state, input, h);
+    }
+}
+
+impl<R: Real> Plant<R> for AnyQuadrotor<R> {
+    fn flight(&self) -> Flight<R> {
+        AnyQuadrotor::flight(self)
+    }
+
+    fn advance(&mut self, input: &Input<R>, h: R) {
+        self.step(FixedStep::Rk4, input, h);
+    }
+}
+
+impl<R: Real, C: Controller<R>> Feedback<R> for InCharge<R, C> {
+    #[inline(always)]
+    fn commands(&mut self, seen: &Flight<R>, reference: &Reference<R>, h: R) -> [R; 4] {
+        let answer = self.controller.control(&self.memory, seen, reference, h);
+        self.memory = answer.memory;
+        answer.commands
+    }
+}
+
+impl<R: Real> Feedback<R> for AnyController<R> {
+    fn commands(&mut self, seen: &Flight<R>, reference: &Reference<R>, h: R) -> [R; 4] {
+        self.update(seen, reference, h)
+    }
+}
+
+impl<R: Real, F: Feedback<R>> Feedback<R> for &mut F {
+    #[inline(always)]
+    fn commands(&mut self, seen: &Flight<R>, reference: &Reference<R>, h: R) -> [R; 4] {
+        (**self).commands(seen, reference, h)
     }
 }
 
@@ -131,22 +229,30 @@ impl Flyer {
     }
 
     /// Flies the plan in still air and records it.
-    pub fn fly(mut self, plan: &FlightPlan, reference: impl Fn(f64) -> Reference<f64>) -> FlightLog {
+    pub fn fly(self, plan: &FlightPlan, reference: impl Fn(f64) -> Reference<f64>) -> FlightLog {
         let (grid, every) = (&plan.grid, plan.record_every.get());
-        let h = grid.step_s();
+        let (h, still) = (grid.step_s(), Input::still_air([0.0; 4]));
         let mut records = Vec::with_capacity(usize::try_from(grid.steps() / every).unwrap_or(0) + 2);
         let mut state = vec![0.0; self.quadrotor.state_len()];
+        let mut flying = ClosedLoop {
+            plant: self.quadrotor,
+            feedback: self.controller,
+        };
+        let diverged = |records, time_s, last| FlightLog {
+            records,
+            status: FlightStatus::Diverged {
+                time_s,
+                last: Box::new(last),
+            },
+        };
         for k in 0..=grid.steps() {
             let time_s = grid.time_s(k);
-            let flight = self.quadrotor.flight();
+            let flight = flying.plant.flight();
             let reference = reference(time_s);
-            let commands = self.controller.update(&flight, &reference, h);
+            // At the end one step more than is recorded, for the commands there.
+            let commands = flying.step_as_seen(&flight, &reference, &still, h);
             if !commands.iter().all(|u| u.is_finite()) {
-                let status = FlightStatus::Diverged {
-                    time_s,
-                    last: Box::new(flight),
-                };
-                return FlightLog { records, status };
+                return diverged(records, time_s, flight);
             }
             if k % every == 0 || k == grid.steps() {
                 let pseudo_inputs = self.allocation.pseudo_inputs(&commands);
@@ -158,18 +264,9 @@ impl Flyer {
                     pseudo_inputs,
                 });
             }
-            if k == grid.steps() {
-                break;
-            }
-            self.quadrotor
-                .step(FixedStep::Rk4, &Input::still_air(commands), h);
-            self.quadrotor.write_state(&mut state);
-            if !state.iter().all(|x| x.is_finite()) {
-                let status = FlightStatus::Diverged {
-                    time_s: grid.time_s(k + 1),
-                    last: Box::new(flight),
-                };
-                return FlightLog { records, status };
+            flying.plant.write_state(&mut state);
+            if k < grid.steps() && !state.iter().all(|x| x.is_finite()) {
+                return diverged(records, grid.time_s(k + 1), flight);
             }
         }
         FlightLog {

@@ -62,7 +62,7 @@
 //!
 //! World north-east-down, so climbing is a negative z; body forward-right-down; SI units, rad. Commands are
 //! zeroed duties as in [`quad_dynamics::Input`]. A controller samples the flight at the start of a step and
-//! its commands are held over it ([`closed_loop_step`], [`Flyer`]); limits on commands are the controller's field
+//! its commands are held over it ([`ClosedLoop::step`], [`Flyer`]); limits on commands are the controller's field
 //! `limits` and, on the model's side, a phenomenon.
 //!
 //! # What it does not protect from
@@ -91,7 +91,9 @@ pub mod stability;
 mod trajectory;
 
 pub use any::InCharge;
-pub use closed_loop::{FlightLog, FlightPlan, FlightStatus, Flyer, LoopState, Record, closed_loop_step};
+pub use closed_loop::{
+    Airborne, ClosedLoop, Feedback, FlightLog, FlightPlan, FlightStatus, Flyer, Plant, Record,
+};
 pub use controller::{Allocation, Control, Controller, ControllerError, Demand, check_pairing};
 pub use generic::{Decoupling, InversionError};
 pub use inversion::{C1, C2, C3, ObserverState};

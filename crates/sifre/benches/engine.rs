@@ -5,8 +5,8 @@
 
 use divan::{Bencher, black_box};
 use nalgebra::Vector3;
-use quad_dynamics::{Level, Level3, QuadrotorModel, Vehicle};
-use quad_ndi::{AnyController, C3, Controller, LoopState, Reference, Settings, closed_loop_step};
+use quad_dynamics::{Input, Level, Level3, QuadrotorModel, Vehicle};
+use quad_ndi::{Airborne, AnyController, C3, ClosedLoop, InCharge, Reference, Settings};
 use sifre::black_box::CsvBox;
 use sifre::quadrotor::Setup;
 use sifre::{Execution, Member, Quadrotor, Simulation, StepSize};
@@ -48,17 +48,19 @@ fn step_bare(bencher: Bencher<'_, '_>) {
     let model = Level3::<f64>::build(&vehicle, &Level::Three.phenomena()).expect("the nominal vehicle flies");
     let controller = c3(&vehicle);
     let hover = model.hover(Vector3::zeros(), 0.0);
-    let start = LoopState {
-        state: hover.state,
-        memory: controller.initial_memory(),
-        commands: hover.input.commands,
+    let start = ClosedLoop {
+        plant: Airborne {
+            model: &model,
+            state: hover.state,
+        },
+        feedback: InCharge::from(controller),
     };
+    let still = Input::still_air([0.0; 4]);
     let reference = reference();
     bencher.bench_local(|| {
         let mut now = black_box(start);
         for _ in 0..STEPS {
-            let wind = Vector3::zeros();
-            now = closed_loop_step(&model, &controller, &now, black_box(&reference), &wind, STEP_S);
+            now.step(black_box(&reference), &still, STEP_S);
         }
         now
     });

@@ -18,8 +18,8 @@ use crate::path::Path;
 use ets::{Ets, EtsInput, EtsState};
 use nalgebra::{SimdBool, Vector2, Vector3};
 use quad_dynamics::{Flight, Input, QuadrotorModel, Snapshot};
-use quad_math::{FixedStep, Real, constant, wrapped};
-use quad_ndi::Controller;
+use quad_math::{Real, constant, wrapped};
+use quad_ndi::{Airborne, ClosedLoop, Controller, InCharge, Plant};
 
 /// Everybody of a flight, over one kind of scalar.
 #[derive(Clone, Debug)]
@@ -97,7 +97,7 @@ pub(crate) fn launched<R: Real, M: QuadrotorModel<R>>(model: &M, path: &Path<R>)
 }
 
 /// Flies a path and adds up what it costs; `watch` sees every instant of the station.
-pub(crate) fn rollout<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
+pub(crate) fn rollout<R: Real, M: QuadrotorModel<R>, C: Controller<R> + Copy>(
     agents: &Agents<R, M, C>,
     timing: &Timing,
     path: &Path<R>,
@@ -112,16 +112,22 @@ pub(crate) fn rollout<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
     let (grid, count) = (&timing.grid, timing.grid.steps() / timing.ratio);
     let (h, h_station) = (constant(grid.step_s()), constant(timing.clock.step_s()));
     let (start, hover) = launched(model, path);
-    let mut state = model.adopt(&start, &hover);
-    let mut memory = controller.initial_memory();
+    let mut flying = ClosedLoop {
+        plant: Airborne {
+            model,
+            state: model.adopt(&start, &hover),
+        },
+        feedback: InCharge::from(*controller),
+    };
     let mut commands = hover.commands;
-    let seen = model.flight(&state);
+    let still = Input::still_air([R::zero(); 4]);
+    let seen = flying.plant.flight();
     let receiver = ets.receiver.on(&seen.position, &seen.rotation.matrix);
     let mut station = aimed(ets, &receiver.centre);
     let (mut alive, mut failed) = (R::one(), R::zero());
     let mut sums = [R::zero(); 7];
     for k in 0..=grid.steps() {
-        let flight = model.flight(&state);
+        let flight = flying.plant.flight();
         if k % timing.ratio == 0 {
             let n = k / timing.ratio;
             let glance = cost.glance(ets, &station.gimbal, &flight, &commands);
@@ -154,9 +160,7 @@ pub(crate) fn rollout<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
             station = ets.turn(&ets.look(&timing.clock, n, &station, &input), h_station);
         }
         let reference = path.reference(constant(grid.time_s(k)), &flight.position, &flight.velocity);
-        let answer = controller.control(&memory, &flight, &reference, h);
-        (memory, commands) = (answer.memory, answer.commands);
-        state = FixedStep::Rk4.step(model, &state, &Input::still_air(commands), h);
+        commands = flying.step_as_seen(&flight, &reference, &still, h);
     }
     let means = Terms::from_array(sums);
     Tally {

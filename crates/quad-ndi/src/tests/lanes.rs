@@ -2,7 +2,7 @@
 
 use super::bad_input::pid_settings;
 use super::*;
-use crate::{C1, C2, C3, Controller, LoopState, Pid, Reference, closed_loop_step};
+use crate::{Airborne, C1, C2, C3, ClosedLoop, Controller, InCharge, Pid, Reference};
 use nalgebra::SimdValue;
 use quad_dynamics::{CommandLimits, Level1, Level3, PhenomenonSet};
 use quad_math::{F32x8, F64x4, Real, constant};
@@ -12,32 +12,32 @@ const STEP_S: f64 = 1e-3;
 const STEPS: usize = 20;
 
 /// State, memory and commands as numbers after some steps from numbers.
-fn after<R: Real, M: QuadrotorModel<R>, C: Controller<R>>(
+fn after<R: Real, M: QuadrotorModel<R>, C: Controller<R> + Copy>(
     model: &M,
     controller: &C,
     start: &[R],
     target: [R; 4],
 ) -> Vec<R> {
     let reference = Reference::hold(Vector3::new(target[0], target[1], target[2]), target[3]);
-    let mut now = LoopState {
-        state: StateOf::<R, M>::read(start),
-        memory: controller.initial_memory(),
-        commands: [R::zero(); 4],
-    };
-    for _ in 0..STEPS {
-        now = closed_loop_step(
+    let mut flying = ClosedLoop {
+        plant: Airborne {
             model,
-            controller,
-            &now,
-            &reference,
-            &Vector3::zeros(),
-            constant(STEP_S),
-        );
+            state: StateOf::<R, M>::read(start),
+        },
+        feedback: InCharge::from(*controller),
+    };
+    let still = Input::still_air([R::zero(); 4]);
+    let mut commands = [R::zero(); 4];
+    for _ in 0..STEPS {
+        commands = flying.step(&reference, &still, constant(STEP_S));
     }
     let mut out = vec![R::zero(); <StateOf<R, M> as Flat<R>>::LEN + C::Memory::LEN];
-    now.state.write(&mut out);
-    now.memory.write(&mut out[<StateOf<R, M> as Flat<R>>::LEN..]);
-    out.extend(now.commands);
+    flying.plant.state.write(&mut out);
+    flying
+        .feedback
+        .memory
+        .write(&mut out[<StateOf<R, M> as Flat<R>>::LEN..]);
+    out.extend(commands);
     out
 }
 
@@ -53,8 +53,8 @@ where
     V: Real + SimdValue<Element: Into<f64> + Real>,
     MV: QuadrotorModel<V>,
     M: QuadrotorModel<f64>,
-    CV: Controller<V>,
-    C: Controller<f64>,
+    CV: Controller<V> + Copy,
+    C: Controller<f64> + Copy,
 {
     let lane = |i: usize| i % starts.len();
     let gather = |pick: &dyn Fn(usize) -> f64| {

@@ -2,7 +2,7 @@
 
 use super::linear_dynamics::{polynomial, step_response};
 use super::*;
-use crate::{C1, C2, C3, Controller, LoopState, Reference, closed_loop_step};
+use crate::{Airborne, C1, C2, C3, ClosedLoop, Controller, InCharge, Plant, Reference};
 use quad_dynamics::{Level1, Level2, Level3, PhenomenonSet};
 
 /// Sampling times, s.
@@ -12,7 +12,7 @@ const STEPS: [f64; 4] = [0.008, 0.004, 0.002, 0.001];
 const END: f64 = 1.6;
 
 /// Largest distance of height and heading from the design, over the flight.
-fn error<M: QuadrotorModel<f64>, C: Controller<f64>>(
+fn error<M: QuadrotorModel<f64>, C: Controller<f64> + Copy>(
     vehicle: &Vehicle,
     controller: &C,
     order: usize,
@@ -23,17 +23,19 @@ fn error<M: QuadrotorModel<f64>, C: Controller<f64>>(
     let reference = Reference::hold(Vector3::new(0.0, 0.0, 1.0), 1.0);
     let gains = settings().gains::<f64>().unwrap();
     let designed = [polynomial(&gains.height, order), polynomial(&gains.yaw, order)];
-    let mut now = LoopState {
-        state: hover.state,
-        memory: controller.initial_memory(),
-        commands: hover.input.commands,
+    let mut flying = ClosedLoop {
+        plant: Airborne {
+            model: &model,
+            state: hover.state,
+        },
+        feedback: InCharge::from(*controller),
     };
     let every = (STEPS[0] / h).round() as usize;
     let mut worst = 0.0_f64;
     for k in 1..=(END / h).round() as usize {
-        now = closed_loop_step(&model, controller, &now, &reference, &Vector3::zeros(), h);
+        flying.step(&reference, &Input::still_air([0.0; 4]), h);
         if k % every == 0 {
-            let flight = model.flight(&now.state);
+            let flight = flying.plant.flight();
             let [z, psi] = designed.each_ref().map(|p| step_response(p, k as f64 * h));
             worst = worst
                 .max((flight.position.z - z).abs())

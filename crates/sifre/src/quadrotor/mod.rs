@@ -6,7 +6,7 @@
 //! advance          x_k+1 = Φ_h(x_k, u_k, wind)          RK4, commands and wind held
 //! ```
 //!
-//! The same operations in the same order as [`quad_ndi::closed_loop_step`], so that engine and rollout agree bit for
+//! The same operations in the same order as [`quad_ndi::ClosedLoop::step`], so that engine and rollout agree bit for
 //! bit. The level may change at any of the agent's instants, before it decides: the new model adopts the flight
 //! (lift or restrict, [`quad_dynamics::Snapshot`]), so position, velocity, attitude and rates go on without a
 //! jump, and thrust and torque where the new level has states for them.

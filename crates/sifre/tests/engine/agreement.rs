@@ -1,10 +1,10 @@
 //! The engine flies what the plain loop flies, bit for bit.
 
 use crate::support::{c1, c3, ms, pid, position, vehicle};
-use quad_dynamics::{AnyQuadrotor, Level, Level3, QuadrotorModel};
+use quad_dynamics::{AnyQuadrotor, Input, Level, Level3, QuadrotorModel};
 use quad_math::TimeGrid;
 use quad_ndi::{
-    C3, Controller, FlightPlan, FlightStatus, Flyer, LoopState, Reference, Settings, closed_loop_step,
+    Airborne, C3, ClosedLoop, FlightPlan, FlightStatus, Flyer, InCharge, Plant, Reference, Settings,
 };
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::Setup;
@@ -71,13 +71,15 @@ fn agree_with_the_pure_step() {
     let model = Level3::<f64>::build(&vehicle, &Level::Three.phenomena()).unwrap();
     let c3 = C3::new(&vehicle, &Settings::default()).unwrap();
     let hover = model.hover([0.0; 3].into(), 0.0);
-    let mut now = LoopState {
-        state: hover.state,
-        memory: c3.initial_memory(),
-        commands: hover.input.commands,
+    let mut flying = ClosedLoop {
+        plant: Airborne {
+            model: &model,
+            state: hover.state,
+        },
+        feedback: InCharge::from(c3),
     };
     for _ in 0..2000 {
-        now = closed_loop_step(&model, &c3, &now, &to, &[0.0; 3].into(), 1e-3);
+        flying.step(&to, &Input::still_air([0.0; 4]), 1e-3);
     }
-    assert_eq!(position(&simulation, "alpha"), model.flight(&now.state).position);
+    assert_eq!(position(&simulation, "alpha"), flying.plant.flight().position);
 }

@@ -4,7 +4,7 @@
 //! gravity over the mass; motion capture gives the velocity along body axes. Still air. The controller acts every
 //! millisecond (RK4 between), and sees the true state: what the sensors do to a controller is another subject.
 
-use super::shaking::{Shaken, excitation};
+use super::shaking::excitation;
 use super::{Generator, Sensor, SensorError};
 use nalgebra::Vector3;
 use quad_dynamics::{
@@ -12,8 +12,8 @@ use quad_dynamics::{
 };
 use quad_math::System;
 use quad_ndi::{
-    C2, Controller, ControllerError, LoopState, Reference, Settings, TiltLaw, Trajectory, TrajectoryError,
-    Waypoint, closed_loop_step,
+    Airborne, C2, ClosedLoop, ControllerError, InCharge, Reference, Settings, TiltLaw, Trajectory,
+    TrajectoryError, Waypoint,
 };
 use serde::{Deserialize, Serialize};
 
@@ -163,19 +163,22 @@ impl FlightTest {
         let path = Trajectory::through(&self.waypoints())?;
         let start = path.flat_output(0.0);
         let hover = model.hover(start.position, start.yaw);
-        let mut now = LoopState {
-            state: hover.state,
-            memory: controller.initial_memory(),
-            commands: hover.input.commands,
+        let mut flying = ClosedLoop {
+            plant: Airborne {
+                model: &model,
+                state: hover.state,
+            },
+            feedback: InCharge::from(controller),
         };
+        let mut commands = hover.input.commands;
         let mut samples = Vec::new();
         let steps = (path.end_s() / STEP_S).round() as u32;
         for k in 0..=steps {
             let time_s = f64::from(k) * STEP_S;
             if k % self.sample_every_ms.max(1) == 0 {
-                let input = Input::still_air(now.commands);
-                let rate = model.derivative(&now.state, &input);
-                let body = &now.state.body;
+                let (input, state) = (Input::still_air(commands), &flying.plant.state);
+                let rate = model.derivative(state, &input);
+                let body = &state.body;
                 let down = body.attitude.conjugate().rotate(&Vector3::z());
                 let force = rate.body.velocity + body.body_rates.cross(&body.velocity)
                     - down * vehicle.environment.gravity;
@@ -185,11 +188,11 @@ impl FlightTest {
                     velocity: body.velocity,
                     duties: model
                         .rotor_set
-                        .limited(&now.commands)
+                        .limited(&commands)
                         .map(|u| u + vehicle.pwm.zero_thrust),
                     voltage: model
                         .rotor_set
-                        .rotor_inputs(&now.state.rotors, &now.state.supply, &input)
+                        .rotor_inputs(&state.rotors, &state.supply, &input)
                         .1[0]
                         .voltage,
                 };
@@ -203,11 +206,9 @@ impl FlightTest {
                 vehicle.environment.gravity,
                 TiltLaw::Exact,
             );
-            let controller = Shaken {
-                controller: &controller,
-                added: excitation(self.excitation, time_s),
-            };
-            now = closed_loop_step(&model, &controller, &now, &reference, &Vector3::zeros(), STEP_S);
+            let shaking = Input::still_air(excitation(self.excitation, time_s));
+            let controlled = flying.step(&reference, &shaking, STEP_S);
+            commands = std::array::from_fn(|i| controlled[i] + shaking.commands[i]);
         }
         Ok(samples)
     }

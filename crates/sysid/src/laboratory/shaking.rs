@@ -4,8 +4,6 @@
 //! roll and pitch are moved at once. Tones from 0.4 Hz (below it the controller takes part) to 5.3 Hz (above it the rotor
 //! hardly answers), none a multiple of another.
 
-use quad_dynamics::{Flight, Level};
-use quad_ndi::{Control, Controller, Reference};
 use std::f64::consts::TAU;
 
 /// Tones, Hz.
@@ -22,34 +20,4 @@ pub(super) fn excitation(amplitude: f64, time_s: f64) -> [f64; 4] {
             .sum();
         amplitude * sum
     })
-}
-
-/// A controller whose commands are shaken.
-pub(super) struct Shaken<'a, C> {
-    pub(super) controller: &'a C,
-    /// What is added to each command now, duty.
-    pub(super) added: [f64; 4],
-}
-
-impl<C: Controller<f64>> Controller<f64> for Shaken<'_, C> {
-    type Memory = C::Memory;
-    const LEVEL: Level = C::LEVEL;
-
-    fn initial_memory(&self) -> C::Memory {
-        self.controller.initial_memory()
-    }
-
-    fn control(
-        &self,
-        memory: &C::Memory,
-        flight: &Flight<f64>,
-        reference: &Reference<f64>,
-        dt: f64,
-    ) -> Control<f64, C::Memory> {
-        let mut control = self.controller.control(memory, flight, reference, dt);
-        for (command, added) in control.commands.iter_mut().zip(self.added) {
-            *command += added;
-        }
-        control
-    }
 }

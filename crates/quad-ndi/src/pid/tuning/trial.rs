@@ -1,13 +1,13 @@
 //! One flight of a tuning and its cost.
 
 use super::{LoopTarget, TunedLoop, TuningError, TuningOptions};
-use crate::Reference;
+use crate::closed_loop::{ClosedLoop, Feedback};
 use crate::controller::{Controller, Demand};
-use crate::pid::{Pid, PidMemory, PidSettings};
+use crate::pid::{Pid, PidSettings};
 use crate::settling::SETTLING_BAND;
+use crate::{InCharge, Reference};
 use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, CommandLimits, Flight, Input, Phenomenon, Vehicle};
-use quad_math::FixedStep;
 
 /// Length of a flight, in settling times; the load comes half-way.
 pub(super) const FLIGHT: f64 = 4.0;
@@ -40,6 +40,25 @@ pub(super) struct Bench {
     load: [f64; 4],
     /// Error of the measured pitch that makes the load, rad.
     horizon: f64,
+}
+
+/// The cascade, or its inner loops alone.
+struct Excited {
+    pid: InCharge<f64, Pid<f64>>,
+    /// What the inner loops alone are asked for, rad.
+    tilt: Option<[f64; 2]>,
+}
+
+impl Feedback<f64> for Excited {
+    fn commands(&mut self, seen: &Flight<f64>, reference: &Reference<f64>, h: f64) -> [f64; 4] {
+        let InCharge { controller, memory } = &mut self.pid;
+        let answer = match self.tilt {
+            Some(tilt) => controller.hold_tilt(memory, seen, reference, tilt, h),
+            None => controller.control(memory, seen, reference, h),
+        };
+        *memory = answer.memory;
+        answer.commands
+    }
 }
 
 /// What a flight sums up.
@@ -104,19 +123,26 @@ impl Bench {
         pid.integral = settings.per_loop(|g| g.integral);
         pid.derivative = settings.per_loop(|g| g.derivative);
         let steps = (FLIGHT * self.target.settling_time_s / self.step_s).round() as u32;
-        let mut quadrotor = self.hovering.clone();
-        let mut memory = pid.initial_memory();
+        let reference = self.reference();
+        let mut flying = ClosedLoop {
+            plant: self.hovering.clone(),
+            feedback: Excited {
+                pid: pid.into(),
+                tilt: self.tilt(),
+            },
+        };
         let mut before = self.hover_commands;
         let mut account = Account::new();
         for k in 0..steps {
             let loaded = k >= steps / 2;
-            let mut flight = quadrotor.flight();
-            let y = self.response(&flight);
+            let mut seen = flying.plant.flight();
+            let y = self.response(&seen);
+            let mut load = [0.0; 4];
             if loaded {
-                flight.attitude.pitch += self.horizon;
+                seen.attitude.pitch += self.horizon;
+                load = self.load;
             }
-            let (mut commands, next) = self.control(&pid, &memory, &flight);
-            memory = next;
+            let commands = flying.step_as_seen(&seen, &reference, &Input::still_air(load), self.step_s);
             if !(y.is_finite() && commands.iter().all(|u| u.is_finite())) {
                 return PENALTY * (2.0 - f64::from(k) / f64::from(steps));
             }
@@ -127,36 +153,28 @@ impl Bench {
                 .map(|(u, v)| (u - v).abs())
                 .sum::<f64>();
             before = commands;
-            if loaded {
-                commands = std::array::from_fn(|i| commands[i] + self.load[i]);
-            }
-            quadrotor.step(FixedStep::Rk4, &Input::still_air(commands), self.step_s);
         }
         account.total(self.hover_commands.iter().sum())
     }
 
-    /// Commands and memory for a step in the loop.
-    fn control(
-        &self,
-        pid: &Pid<f64>,
-        memory: &PidMemory<f64>,
-        flight: &Flight<f64>,
-    ) -> ([f64; 4], PidMemory<f64>) {
+    /// What steps the loop, but for the tilt of the attitude loop.
+    fn reference(&self) -> Reference<f64> {
         let (step, o) = (self.target.step, Vector3::zeros());
-        let hold = Reference::hold(o, 0.0);
-        let answer = match self.tuned {
-            TunedLoop::Attitude => pid.hold_tilt(memory, flight, &hold, [step, 0.0], self.step_s),
-            TunedLoop::Yaw => pid.hold_tilt(memory, flight, &Reference::hold(o, step), [0.0; 2], self.step_s),
-            TunedLoop::Height => {
-                let reference = Reference::hold(Vector3::new(0.0, 0.0, -step), 0.0);
-                pid.hold_tilt(memory, flight, &reference, [0.0; 2], self.step_s)
-            }
-            TunedLoop::Position => {
-                let reference = Reference::hold(Vector3::new(step, 0.0, 0.0), 0.0);
-                pid.control(memory, flight, &reference, self.step_s)
-            }
-        };
-        (answer.commands, answer.memory)
+        match self.tuned {
+            TunedLoop::Attitude => Reference::hold(o, 0.0),
+            TunedLoop::Yaw => Reference::hold(o, step),
+            TunedLoop::Height => Reference::hold(Vector3::new(0.0, 0.0, -step), 0.0),
+            TunedLoop::Position => Reference::hold(Vector3::new(step, 0.0, 0.0), 0.0),
+        }
+    }
+
+    /// The tilt `[φ, θ]`, rad, that the inner loops are asked for; `None` where the position loops ask.
+    fn tilt(&self) -> Option<[f64; 2]> {
+        match self.tuned {
+            TunedLoop::Attitude => Some([self.target.step, 0.0]),
+            TunedLoop::Yaw | TunedLoop::Height => Some([0.0; 2]),
+            TunedLoop::Position => None,
+        }
     }
 
     /// The response as a fraction of the step.
