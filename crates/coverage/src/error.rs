@@ -69,9 +69,14 @@ pub enum CoverageError {
         /// How many there may be.
         limit: usize,
     },
-    /// No cameras.
-    #[error("a rig has at least one camera, not 0")]
-    NoCameras,
+    /// No cameras, or more than can be placed.
+    #[error("a rig has 1 to {limit} cameras, not {cameras}")]
+    BadCount {
+        /// How many were asked for.
+        cameras: usize,
+        /// How many there may be.
+        limit: usize,
+    },
     /// Heights in the wrong order or outside the room.
     #[error(
         "cameras between {least_m} m and {most_m} m over the floor: the first must be at least 0 and below the second, the second no more \

@@ -16,6 +16,9 @@ const TILT_RAD: RangeInclusive<f64> = -0.8..=0.2;
 /// Height of the first guess, m, if the limits allow it.
 const FIRST_HEIGHT_M: f64 = 2.5;
 
+/// Most cameras of a rig: ten times the largest halls, and a search over 4096 variables.
+const MOST_CAMERAS: usize = 1024;
+
 /// How much of a rig's cost is [`Coverage::progress`]: enough for a direction, too little to be bought with coverage.
 const PROGRESS_WEIGHT: f64 = 0.1;
 
@@ -31,11 +34,14 @@ impl WallRig {
     /// So many cameras between two heights over the floor, m.
     ///
     /// # Errors
-    /// No camera; heights that are not in order inside the room; a room without a length.
+    /// No camera or more than 1024; heights that are not in order inside the room; a room without a length.
     pub fn new(room: Room, cameras: usize, height_m: RangeInclusive<f64>) -> Result<Self, CoverageError> {
         room.check()?;
-        if cameras == 0 {
-            return Err(CoverageError::NoCameras);
+        if !(1..=MOST_CAMERAS).contains(&cameras) {
+            return Err(CoverageError::BadCount {
+                cameras,
+                limit: MOST_CAMERAS,
+            });
         }
         let (least, most) = (*height_m.start(), *height_m.end());
         if !(least >= 0.0 && least < most && most <= room.height_m) {

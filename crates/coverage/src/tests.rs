@@ -272,7 +272,10 @@ fn exact_costs() {
 
 #[test]
 fn exact_rigs_that_are_none() {
-    assert_eq!(WallRig::new(ROOM, 0, HEIGHTS), Err(CoverageError::NoCameras));
+    for cameras in [0, 65_536, usize::MAX] {
+        let refused = WallRig::new(ROOM, cameras, HEIGHTS);
+        assert_eq!(refused, Err(CoverageError::BadCount { cameras, limit: 1024 }));
+    }
     for heights in [3.0..=1.0, -1.0..=2.0, 1.0..=5.0, f64::NAN..=2.0] {
         let refused = WallRig::new(ROOM, 4, heights).unwrap_err();
         assert!(matches!(refused, CoverageError::BadHeights { .. }), "{refused}");

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 /// Identifies parts of a quadrotor from measurements.
 ///
-/// Exit codes: 0 identified (read the warnings); 1 data or a file refused, no vehicle file is written; 2 bad usage.
+/// Exit codes: 0 identified (read the warnings); 1 data or a file refused, no vehicle file is written; 2 bad usage; 3 an output
+/// can't be written.
 #[derive(Debug, Parser)]
 #[command(name = "identify", version)]
 pub(crate) struct Arguments {

@@ -64,8 +64,13 @@ const STANDARD_INPUT: &str = "-";
 
 type Samples<T> = Result<Vec<T>, Box<dyn Error>>;
 
+/// Whether a path stands for standard input.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == STANDARD_INPUT
+}
+
 fn open(path: &Path) -> io::Result<Box<dyn Read>> {
-    if path.as_os_str() == STANDARD_INPUT {
+    if is_standard(path) {
         Ok(Box::new(io::stdin().lock()))
     } else {
         Ok(Box::new(File::open(path)?))

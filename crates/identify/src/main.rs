@@ -8,32 +8,96 @@ mod plot;
 mod ulog;
 mod vehicle;
 
-use arguments::{Arguments, What};
+use ::output::STANDARD_INPUT;
+use arguments::{Arguments, Common, What};
 use clap::Parser;
 use output::{Answer, Found};
 use std::error::Error;
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Exit code when the data or a file are refused.
 const REFUSED: u8 = 1;
 
-fn main() -> ExitCode {
-    match run(&Arguments::parse().what) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(REFUSED)
-        }
+/// Exit code for bad usage.
+const BAD_USAGE: u8 = 2;
+
+/// Exit code when an output can't be written.
+const NOT_WRITTEN: u8 = 3;
+
+/// Why the program ends before its work.
+enum Stop {
+    /// Data or a file that is refused.
+    Refused(Box<dyn Error>),
+    /// An output that is an input or another output.
+    Clash(::output::Clash),
+    /// An output that can't be written, and why.
+    NotWritten(PathBuf, io::Error),
+}
+
+impl From<Box<dyn Error>> for Stop {
+    fn from(error: Box<dyn Error>) -> Self {
+        Self::Refused(error)
     }
 }
 
-fn run(what: &What) -> Result<(), Box<dyn Error>> {
+impl From<String> for Stop {
+    fn from(error: String) -> Self {
+        Self::Refused(error.into())
+    }
+}
+
+fn main() -> ExitCode {
+    let what = match Arguments::try_parse() {
+        Ok(arguments) => arguments.what,
+        Err(error) => return usage(&error),
+    };
+    let (code, why) = match run(&what) {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Stop::Refused(error)) => (REFUSED, error.to_string()),
+        Err(Stop::Clash(clash)) => (BAD_USAGE, clash.to_string()),
+        Err(Stop::NotWritten(path, error)) => (
+            NOT_WRITTEN,
+            format!("{}: can't be written: {error}", path.display()),
+        ),
+    };
+    complain(&format!("error: {why}"));
+    ExitCode::from(code)
+}
+
+/// Prints help, the version, or what is wrong with the arguments.
+fn usage(error: &clap::Error) -> ExitCode {
+    let lost = error
+        .print()
+        .is_err_and(|why| why.kind() != ErrorKind::BrokenPipe);
+    ExitCode::from(match (error.use_stderr(), lost) {
+        (true, _) => BAD_USAGE,
+        (false, true) => NOT_WRITTEN,
+        (false, false) => 0,
+    })
+}
+
+/// Prints a line on standard error; a stream that is closed is no error of ours.
+fn complain(line: &str) {
+    let _ = writeln!(io::stderr(), "{}", ::output::message(line));
+}
+
+/// Prints a text on standard output.
+fn say(text: &str) -> Result<(), Stop> {
+    ::output::print(&::output::escaped(text))
+        .map_err(|error| Stop::NotWritten("standard output".into(), error))
+}
+
+/// Writes a file as a whole.
+fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Stop> {
+    ::output::replace(path, content).map_err(|error| Stop::NotWritten(path.to_owned(), error))
+}
+
+fn run(what: &What) -> Result<(), Stop> {
     let mut answer = Answer::default();
     let common = match what {
-        What::Template { kind } => {
-            print!("{}", kind.template());
-            return Ok(());
-        }
+        What::Template { kind } => return say(kind.template()),
         What::CentreOfMass(common)
         | What::ThrustStand { common, .. }
         | What::RotorResponse(common)
@@ -41,24 +105,49 @@ fn run(what: &What) -> Result<(), Box<dyn Error>> {
         | What::LoadCell { common, .. }
         | What::Flight { common, .. } => common,
     };
+    check_outputs(common)?;
     let identified = command::identify(what, &mut answer);
     // What the reader noticed may be the reason of a refusal: said in both cases.
     for warning in &answer.warnings {
-        eprintln!("warning: {warning}");
+        complain(&format!("warning: {warning}"));
     }
     identified?;
-    // First what was found, so that it is not lost if a file can't be written.
-    if common.json {
-        println!("{}", output::json(&answer));
+    answer.check()?;
+    // First what was found, so that it is not lost if a file can't be written, and the files all the same if it can't be printed.
+    let said = say(&if common.json {
+        output::json(&answer) + "\n"
     } else {
-        print!("{}", output::table(&answer));
-    }
+        output::table(&answer)
+    });
     if let (Some(path), Some(figure)) = (&common.plot, &answer.figure) {
-        plot::save(path, figure)?;
+        write(path, plot::drawn(path, figure)?)?;
     }
     if let (Some(vehicle), Some(out)) = (&common.vehicle, &common.out) {
         let source = |found: &Found| found.source(what.command(), &common.data);
-        vehicle::write(vehicle, out, &answer.found, source)?;
+        write(out, vehicle::completed(vehicle, &answer.found, source)?)?;
     }
-    Ok(())
+    said
+}
+
+/// Refuses outputs that are inputs or each other, and outputs that can't be written, before anything is read. The one input that an output may be is
+/// the vehicle file, which --out completes.
+fn check_outputs(common: &Common) -> Result<(), Stop> {
+    let data = match input::is_standard(&common.data) {
+        true => Path::new(STANDARD_INPUT).to_owned(),
+        false => common.data.clone(),
+    };
+    let outputs: Vec<PathBuf> = [&common.out, &common.plot]
+        .into_iter()
+        .flatten()
+        .cloned()
+        .collect();
+    ::output::keep_apart(std::slice::from_ref(&data), &outputs).map_err(Stop::Clash)?;
+    let (vehicle, plot) = (common.vehicle.as_slice(), common.plot.as_slice());
+    ::output::keep_apart(vehicle, plot).map_err(Stop::Clash)?;
+    outputs
+        .into_iter()
+        .try_for_each(|path| match ::output::can_be_written(&path) {
+            Ok(()) => Ok(()),
+            Err(error) => Err(Stop::NotWritten(path, error)),
+        })
 }

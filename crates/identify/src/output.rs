@@ -35,6 +35,20 @@ impl Answer {
         self.push_made(key, unit, estimate, "");
     }
 
+    /// Refuses numbers that the data don't determine: a fit may end with a parameter on which nothing that was measured depends.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let is_known = |f: &&Found| f.estimate.value.is_finite() && f.estimate.standard_error.is_finite();
+        match self.found.iter().find(|found| !is_known(found)) {
+            Some(Found {
+                key, unit, estimate, ..
+            }) => Err(format!(
+                "the data don't determine {key}: {} {unit} with a standard error of {}; a record with more changes of the input does",
+                estimate.value, estimate.standard_error
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// The same with words on how the number was made.
     pub(crate) fn push_made(&mut self, key: &str, unit: &'static str, estimate: Estimate, made: &str) {
         self.found.push(Found {

@@ -4,7 +4,6 @@ use quad_plot::figure::Legends;
 use quad_plot::style::{INK, Look};
 use quad_plot::{Figure, Panel, raster, series_style};
 use std::error::Error;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Look of the measurements, of the fit and of the residuals.
@@ -39,14 +38,13 @@ fn format(path: &Path) -> Option<Format> {
     }
 }
 
-/// Draws a figure into a file.
-pub(crate) fn save(path: &Path, figure: &Figure) -> Result<(), Box<dyn Error>> {
+/// A figure as the bytes of the file of this name.
+pub(crate) fn drawn(path: &Path, figure: &Figure) -> Result<Vec<u8>, Box<dyn Error>> {
     let svg = figure.draw();
-    let bytes = match format(path) {
+    Ok(match format(path) {
         Some(Format::Png) => raster::png(&svg)?,
         _ => svg.document().into_bytes(),
-    };
-    fs::write(path, bytes).map_err(|e| format!("{}: {e}", path.display()).into())
+    })
 }
 
 /// An empty figure of so many columns.

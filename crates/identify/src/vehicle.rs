@@ -4,13 +4,12 @@ use crate::output::Found;
 use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::file::VehicleFile;
 use std::error::Error;
-use std::fs;
 use std::path::Path;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 /// The text of a file, with its name in the error.
 fn text(path: &Path) -> Result<String, Box<dyn Error>> {
-    fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()).into())
+    output::read_text(path, output::TEXT_LIMIT).map_err(|e| format!("{}: {e}", path.display()).into())
 }
 
 /// Reads a vehicle file.
@@ -21,15 +20,13 @@ pub(crate) fn read(path: &Path) -> Result<VehicleFile, Box<dyn Error>> {
     )?)
 }
 
-/// Writes the vehicle file of `vehicle` with the identified numbers to `out`.
-pub(crate) fn write(
+/// The text of the vehicle file `vehicle` with the identified numbers.
+pub(crate) fn completed(
     vehicle: &Path,
-    out: &Path,
     found: &[Found],
     source: impl Fn(&Found) -> String,
-) -> Result<(), Box<dyn Error>> {
-    let new = updated(&text(vehicle)?, &vehicle.display().to_string(), found, source)?;
-    fs::write(out, new).map_err(|e| format!("{}: {e}", out.display()).into())
+) -> Result<String, Box<dyn Error>> {
+    updated(&text(vehicle)?, &vehicle.display().to_string(), found, source)
 }
 
 /// A vehicle file's text with the identified numbers in the place of the old ones, checked to be a vehicle.

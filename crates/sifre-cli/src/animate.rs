@@ -26,8 +26,14 @@ pub(crate) struct Arguments {
 
 /// Draws a flight.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
-    let is_scenario = arguments.input.extension().is_some_and(|ending| ending == "toml");
-    let (recording, scene, exit) = if is_scenario {
+    // A flight's outputs are where the program runs, as those of `run` are, not among the scenarios.
+    let name = arguments.input.file_name().unwrap_or(arguments.input.as_os_str());
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new(name).with_extension("html"));
+    check(arguments, &out)?;
+    let (recording, scene, exit) = if is_scenario(&arguments.input) {
         interrupt::listen();
         let Flown { scene, mut flight } = Flown::ready(&arguments.input)?;
         let id = flight
@@ -50,12 +56,6 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         };
         (recording, scene, Exit::Done)
     };
-    // A flight's outputs stand where one works, as those of `run` do, not among the scenarios.
-    let name = arguments.input.file_name().unwrap_or(arguments.input.as_os_str());
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new(name).with_extension("html"));
     let is_mcap = out.extension().is_some_and(|ending| ending == "mcap");
     let drawn = if is_mcap {
         mcap(&recording, &scene)?
@@ -63,14 +63,34 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         html(&recording, &scene, &Options::default()).map(String::into_bytes)
     };
     let refused = |error| Failure::Usage(format!("{}: {error}", arguments.input.display()));
-    disk::write(&out, drawn.map_err(refused)?)?;
+    disk::replace(&out, drawn.map_err(refused)?)?;
     if json {
-        report::print(&serde_json::json!({ "page": out, "rows": recording.len(), "exit_code": exit.code() }));
+        report::print(
+            &serde_json::json!({ "page": out, "rows": recording.len(), "exit_code": exit.code() }),
+        )?;
     } else {
         let viewer = if is_mcap { "Foxglove or rerun" } else { "a browser" };
-        report::say(format!("drawn: {}; open it in {viewer}\n", out.display()));
+        report::say(format!("drawn: {}; open it in {viewer}\n", out.display()))?;
     }
     Ok(exit)
+}
+
+/// Refuses a page that would be written over what it is drawn from.
+fn check(arguments: &Arguments, page: &Path) -> Result<(), Failure> {
+    let mut inputs = vec![arguments.input.clone()];
+    let scenario = match &arguments.scenario {
+        Some(path) => Some(path),
+        None => Some(&arguments.input).filter(|path| is_scenario(path)),
+    };
+    if let Some(path) = scenario {
+        inputs.extend(disk::inputs(path, &Template::read(path)?.with([])?));
+    }
+    disk::check_outputs(&inputs, &[page.to_owned()])
+}
+
+/// Whether an input is a scenario, which is flown.
+fn is_scenario(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "toml")
 }
 
 /// The recording as an MCAP file.

@@ -1,10 +1,10 @@
 //! Files on disk: scenarios, and the vehicles and stations that they name.
 
 use crate::exit::Failure;
-use scenario::Files;
+use output::TEXT_LIMIT;
+use scenario::{Files, Scenario};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -21,9 +21,7 @@ impl Beside {
             folder: scenario.parent().map_or_else(PathBuf::new, Path::to_path_buf),
         }
     }
-}
 
-impl Beside {
     /// The path of a file by its name in the scenario.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
@@ -32,7 +30,7 @@ impl Beside {
 
 impl Files for Beside {
     fn text(&self, name: &str) -> Result<String, io::Error> {
-        fs::read_to_string(self.path(name))
+        output::read_text(&self.path(name), TEXT_LIMIT)
     }
 }
 
@@ -62,62 +60,40 @@ impl Files for Remembering<'_> {
     }
 }
 
-/// The text of a file.
+/// The text of a file that people write.
 pub(crate) fn read(path: &Path) -> Result<String, Failure> {
-    fs::read_to_string(path).map_err(|source| Failure::Read {
+    read_up_to(path, TEXT_LIMIT)
+}
+
+/// The text of a file that the program wrote, up to so many bytes.
+pub(crate) fn read_up_to(path: &Path, limit: u64) -> Result<String, Failure> {
+    output::read_text(path, limit).map_err(|source| Failure::Read {
         path: path.to_owned(),
         source,
     })
 }
 
-/// Writes a file beside the one of this name, then gives it the name: whenever the program ends, one of the two is whole.
+/// The files that a run reads: its scenario, and what that names.
+pub(crate) fn inputs(path: &Path, scenario: &Scenario) -> Vec<PathBuf> {
+    let beside = Beside::of(path);
+    let named = scenario.named_files().map(|name| beside.path(name));
+    std::iter::once(path.to_owned()).chain(named).collect()
+}
+
+/// Refuses outputs that are inputs or each other, and outputs that can't be written: to be asked before the first of them is opened.
+pub(crate) fn check_outputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(), Failure> {
+    output::keep_apart(inputs, outputs)?;
+    outputs.iter().try_for_each(|path| {
+        output::can_be_written(path).map_err(|source| Failure::Write {
+            path: path.clone(),
+            source,
+        })
+    })
+}
+
+/// Writes a file as a whole: whenever the program ends, the old or the new one is complete.
 pub(crate) fn replace(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
-    let fresh = beside(path);
-    fs::write(&fresh, content)
-        .and_then(|()| fs::rename(&fresh, path))
-        .map_err(|source| Failure::Write {
-            path: path.to_owned(),
-            source,
-        })
-}
-
-/// Refuses to write over a file that is read.
-pub(crate) fn is_no_input(output: &Path, inputs: &[PathBuf]) -> Result<(), Failure> {
-    let Ok(output) = output.canonicalize() else {
-        return Ok(()); // Not there yet.
-    };
-    if inputs
-        .iter()
-        .any(|input| input.canonicalize().is_ok_and(|input| input == output))
-    {
-        return Err(Failure::Usage(format!(
-            "{} is an input of this flight and would be written over: give the output another name",
-            output.display()
-        )));
-    }
-    Ok(())
-}
-
-/// Whether a file can be replaced, before a long flight and not after it.
-pub(crate) fn can_be_replaced(path: &Path) -> Result<(), Failure> {
-    let fresh = beside(path);
-    fs::write(&fresh, "")
-        .and_then(|()| fs::remove_file(&fresh))
-        .map_err(|source| Failure::Write {
-            path: path.to_owned(),
-            source,
-        })
-}
-
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".new");
-    name.into()
-}
-
-/// Writes a file anew.
-pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
-    fs::write(path, content).map_err(|source| Failure::Write {
+    output::replace(path, content).map_err(|source| Failure::Write {
         path: path.to_owned(),
         source,
     })

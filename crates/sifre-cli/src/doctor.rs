@@ -62,19 +62,19 @@ pub(crate) fn run(json: bool) -> Result<Exit, Failure> {
             Ok(seen) => json!({ "check": check.what, "ok": true, "seen": seen }),
             Err(error) => json!({ "check": check.what, "ok": false, "seen": error.to_string() }),
         };
-        report::print(&json!({ "sound": sound, "checks": checks.iter().map(entry).collect::<Vec<_>>() }));
+        report::print(&json!({ "sound": sound, "checks": checks.iter().map(entry).collect::<Vec<_>>() }))?;
     } else {
         for Check { what, seen } in &checks {
             match seen {
-                Ok(seen) => report::say(format!("  ok    {what}: {seen}\n")),
-                Err(error) => report::say(format!("  FAILS {what}: {error}\n")),
+                Ok(seen) => report::say(format!("  ok    {what}: {seen}\n"))?,
+                Err(error) => report::say(format!("  FAILS {what}: {error}\n"))?,
             }
         }
         report::say(if sound {
             "all is well\n"
         } else {
             "something is not well\n"
-        });
+        })?;
     }
     Ok(if sound { Exit::Done } else { Exit::Early })
 }
@@ -123,7 +123,7 @@ fn recordings() -> Result<String, Box<dyn Error>> {
         let mut flight = Scenario::from_toml_str(HOVER, "hover")?.build(&())?.fly()?;
         flight
             .simulation
-            .attach(flight.output.step_s, CsvBox::new(File::create(&path)?))?;
+            .attach(flight.output.step_s, CsvBox::new(File::create_new(&path)?))?;
         flight.run(&mut ())?;
         flight.simulation.finish_recordings()?;
         Ok(Recording::from_csv(File::open(&path)?)?.len())

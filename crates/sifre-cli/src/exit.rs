@@ -69,8 +69,11 @@ pub(crate) enum Failure {
         /// Why.
         source: std::io::Error,
     },
-    /// A file that is there already.
-    #[error("{}: is there already; give another name, or --force to replace it", path.display())]
+    /// An output that is an input, or two outputs that are one file.
+    #[error(transparent)]
+    Clash(#[from] output::Clash),
+    /// A file that exists.
+    #[error("{}: exists; give another name, or --force to replace it", path.display())]
     Exists {
         /// The file.
         path: PathBuf,

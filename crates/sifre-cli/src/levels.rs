@@ -5,7 +5,7 @@
 //! attitude   θ = 2 asin(‖R_ℓ − R_5‖_F / √8)
 //! ```
 
-use crate::disk::Beside;
+use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, Template, setting};
 use crate::{drawing, interrupt, model, report};
@@ -61,6 +61,10 @@ struct Difference {
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
     model::check(&scenario)?;
+    drawing::check(
+        arguments.plot.as_deref(),
+        &disk::inputs(&arguments.scenario, &scenario),
+    )?;
     interrupt::listen();
     let files = Beside::of(&arguments.scenario);
     let mut flights = Vec::new();
@@ -87,11 +91,11 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         drawing::write(path, &figure(&agents, &differences))?;
     }
     if json {
-        report::print(&as_json(&agents, &differences, &flights));
+        report::print(&as_json(&agents, &differences, &flights))?;
     } else {
-        report::say(format!("{}\n", table(&agents, &differences, &flights)));
+        report::say(format!("{}\n", table(&agents, &differences, &flights)))?;
         if let Some(path) = &arguments.plot {
-            report::say(format!("drawn: {}\n", path.display()));
+            report::say(format!("drawn: {}\n", path.display()))?;
         }
     }
     let all_done = flights.iter().all(|(_, flown)| flown.end == End::Done);

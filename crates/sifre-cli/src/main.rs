@@ -29,6 +29,7 @@ mod varied;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use exit::{Exit, Failure};
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 /// Exit codes, as `--help` shows them.
@@ -89,7 +90,10 @@ enum What {
 }
 
 fn main() -> ExitCode {
-    let Arguments { what, json } = Arguments::parse();
+    let Arguments { what, json } = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return usage(&error),
+    };
     let outcome = match what {
         What::Run(arguments) => run::run(&arguments, json),
         What::Levels(arguments) => levels::run(&arguments, json),
@@ -107,12 +111,23 @@ fn main() -> ExitCode {
         What::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "sifre", &mut script);
-            report::say(String::from_utf8_lossy(&script));
-            Ok(Exit::Done)
+            report::say(String::from_utf8_lossy(&script)).map(|()| Exit::Done)
         }
     };
     let exit = outcome.unwrap_or_else(|failure| tell(&failure, json));
     exit.into()
+}
+
+/// Prints help, the version, or what is wrong with the arguments.
+fn usage(error: &clap::Error) -> ExitCode {
+    let printed = error.print();
+    let lost = printed.is_err_and(|why| why.kind() != ErrorKind::BrokenPipe);
+    match (error.use_stderr(), lost) {
+        (true, _) => Exit::BadInput,
+        (false, true) => Exit::NotWritten,
+        (false, false) => Exit::Done,
+    }
+    .into()
 }
 
 /// Says what went wrong.
@@ -120,7 +135,8 @@ fn tell(failure: &Failure, json: bool) -> Exit {
     let exit = failure.exit();
     report::complain(format!("error: {failure}"));
     if json {
-        report::print(&serde_json::json!({ "error": failure.to_string(), "exit_code": exit.code() }));
+        // Standard output may be what went wrong.
+        let _ = report::print(&serde_json::json!({ "error": failure.to_string(), "exit_code": exit.code() }));
     }
     exit
 }

@@ -31,17 +31,17 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let chosen = known().find(|(name, _)| *name == arguments.from);
     let (_, text) = chosen.unwrap_or(TEMPLATE);
     let Some(path) = &arguments.file else {
-        report::say(text);
+        report::say(text)?;
         return Ok(Exit::Done);
     };
-    if path.exists() && !arguments.force {
+    if std::fs::symlink_metadata(path).is_ok() && !arguments.force {
         return Err(Failure::Exists { path: path.clone() });
     }
-    disk::write(path, text)?;
+    disk::replace(path, text)?;
     if json {
-        report::print(&serde_json::json!({ "written": path, "from": arguments.from }));
+        report::print(&serde_json::json!({ "written": path, "from": arguments.from }))?;
     } else {
-        report::say(format!("written: {0}\nfly it:  sifre run {0}\n", path.display()));
+        report::say(format!("written: {0}\nfly it:  sifre run {0}\n", path.display()))?;
     }
     Ok(Exit::Done)
 }

@@ -23,6 +23,11 @@ pub(crate) struct Arguments {
 
 /// Draws a recording.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| arguments.recording.with_extension("svg"));
+    drawing::check(Some(&out), std::slice::from_ref(&arguments.recording))?;
     let recovered = recorder::read(&arguments.recording)?;
     let recording = &recovered.recording;
     if let Some(damage) = &recovered.damage {
@@ -48,19 +53,15 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
             "{path}: it has no channels that are drawn"
         )));
     }
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| arguments.recording.with_extension("svg"));
     drawing::write(&out, &figure(columns))?;
     if json {
         report::print(&serde_json::json!({
             "picture": out,
             "rows": recording.len(),
             "damage": recovered.damage.map(|damage| damage.to_string()),
-        }));
+        }))?;
     } else {
-        report::say(format!("drawn: {}\n", out.display()));
+        report::say(format!("drawn: {}\n", out.display()))?;
     }
     Ok(Exit::Done)
 }

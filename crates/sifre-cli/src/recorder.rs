@@ -5,6 +5,7 @@ use scenario::Format;
 use sifre::black_box::{CsvBox, JsonLinesBox, ParquetBox, Recovered, Selected, Selection};
 use sifre::{BlackBox, BlackBoxError, Recording, Simulation, StepSize};
 use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// Opens a file for a recording and attaches it.
@@ -21,7 +22,7 @@ pub(crate) fn attach(
         source,
     };
     selection.places(&simulation.channels()).map_err(refuse)?;
-    let file = File::create(path).map_err(|source| Failure::Write {
+    let file = output::open_alone(path).map_err(|source| Failure::Write {
         path: path.to_owned(),
         source,
     })?;
@@ -37,6 +38,18 @@ pub(crate) fn attach(
             other => other.into(),
         })?;
     Ok(())
+}
+
+/// Whether a recording may take this place without being asked for it: nothing is there, or something empty, or a recording.
+pub(crate) fn may_be_replaced(path: &Path) -> bool {
+    const BEGINNINGS: [&[u8]; 3] = [b"# {\"sifre_recording\"", b"{\"sifre_recording\"", b"PAR1"];
+    let is_file = std::fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
+    let Ok(file) = File::open(path) else {
+        return true; // What can't be opened is told where it is to be written.
+    };
+    let mut begins = Vec::new();
+    let read = file.take(64).read_to_end(&mut begins);
+    !is_file || read.is_err() || begins.is_empty() || BEGINNINGS.iter().any(|b| begins.starts_with(b))
 }
 
 /// Reads what is whole of a recording.

@@ -1,6 +1,6 @@
 //! What a flight did, for people and for machines.
 
-use crate::exit::Exit;
+use crate::exit::{Exit, Failure};
 use scenario::{Ending, Metric};
 use serde_json::{Map, Value, json};
 use sifre::Event;
@@ -31,18 +31,22 @@ pub(crate) struct Report {
 }
 
 /// Prints a value on standard output.
-pub(crate) fn print(value: &Value) {
-    say(format!("{value:#}\n"));
+pub(crate) fn print(value: &Value) -> Result<(), Failure> {
+    say(format!("{value:#}\n"))
 }
 
-/// Prints a text on standard output; a pipe that is closed is no error of ours.
-pub(crate) fn say(text: impl AsRef<str>) {
-    let _ = std::io::stdout().write_all(text.as_ref().as_bytes());
+/// Prints a text on standard output, with what a terminal would obey written out. A pipe that is closed is no error of ours, a disk that is
+/// full is one.
+pub(crate) fn say(text: impl AsRef<str>) -> Result<(), Failure> {
+    output::print(&output::escaped(text.as_ref())).map_err(|source| Failure::Write {
+        path: "standard output".into(),
+        source,
+    })
 }
 
-/// Prints a line on standard error; one that is closed is no error of ours.
+/// Prints a line on standard error, long words shortened; a stream that is closed is no error of ours.
 pub(crate) fn complain(line: impl AsRef<str>) {
-    let _ = writeln!(std::io::stderr(), "{}", line.as_ref());
+    let _ = writeln!(std::io::stderr(), "{}", output::message(line.as_ref()));
 }
 
 /// Metrics as a JSON object.

@@ -1,6 +1,6 @@
 //! `sifre run`: flies a scenario and records it.
 
-use crate::disk::{self, Beside, Remembering};
+use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::report::{self, Report};
 use crate::varied::{Setting, Template, setting};
@@ -56,18 +56,15 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     } else {
         progress_bar(scenario.duration_s)
     };
-    if let Some(to) = &arguments.save {
-        disk::can_be_replaced(to)?;
-    }
     let report = fly(&scenario, arguments, &bar)?;
     bar.finish_and_clear();
     for note in &report.notes {
         report::complain(format!("note: {note}"));
     }
     if json {
-        report::print(&report.json());
+        report::print(&report.json())?;
     } else {
-        report::say(report.text());
+        report::say(report.text())?;
     }
     if report.exit() != Exit::Done {
         report::complain(format!("error: {}", report.ending.report.status));
@@ -78,15 +75,8 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
 /// Flies a scenario to its end and records it where it says.
 fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<Report, Failure> {
     let beside = Beside::of(&arguments.scenario);
-    let files = Remembering::of(&beside);
-    let built = scenario.build(&files)?;
-    let inputs: Vec<PathBuf> = [arguments.scenario.clone()]
-        .into_iter()
-        .chain(files.read.borrow().keys().map(|name| beside.path(name)))
-        .collect();
-    if let Some(to) = &arguments.save {
-        disk::is_no_input(to, &inputs)?;
-    }
+    let built = scenario.build(&beside)?;
+    check_outputs(scenario, arguments)?;
     let (selection, mut notes) = (built.selection(), built.notes.clone());
     let mut flight = match &arguments.resume {
         Some(from) => saved::resume(built, from)?,
@@ -100,7 +90,6 @@ fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<
         if arguments.resume.is_some() {
             saved::leave_alone(Path::new(path))?;
         }
-        disk::is_no_input(Path::new(path), &inputs)?;
         let format = scenario.output.form().unwrap_or(Format::Csv);
         recorder::attach(&mut flight.simulation, Path::new(path), format, step, selection)?;
     }
@@ -132,6 +121,31 @@ fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<
         from_s,
         wall_s,
     })
+}
+
+/// Refuses a recording and a saved flight that would be written over an input or each other, and a scenario's recording that would replace a
+/// file of another kind: who starts a scenario of somebody else's has not chosen its outputs.
+fn check_outputs(scenario: &Scenario, arguments: &Arguments) -> Result<(), Failure> {
+    let mut inputs = disk::inputs(&arguments.scenario, scenario);
+    inputs.extend(arguments.resume.clone());
+    let recording = scenario.output.path.as_ref().map(PathBuf::from);
+    let outputs: Vec<PathBuf> = recording.into_iter().chain(arguments.save.clone()).collect();
+    disk::check_outputs(&inputs, &outputs)?;
+    if let Some(path) = scenario
+        .output
+        .path
+        .as_ref()
+        .map(Path::new)
+        .filter(|_| arguments.out.is_none())
+        && !recorder::may_be_replaced(path)
+    {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        return Err(Failure::Usage(format!(
+            "{}: exists and is no recording; the scenario's output.path would replace it: give --out to record elsewhere",
+            path.display()
+        )));
+    }
+    Ok(())
 }
 
 /// Completes the recording; one that failed before has been told of.

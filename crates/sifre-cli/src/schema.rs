@@ -6,6 +6,6 @@ use scenario::Scenario;
 
 /// Prints the schema.
 pub(crate) fn run() -> Result<Exit, Failure> {
-    report::print(&Scenario::json_schema());
+    report::print(&Scenario::json_schema())?;
     Ok(Exit::Done)
 }

@@ -2,6 +2,7 @@
 
 mod flight;
 mod large;
+mod outputs;
 mod templates;
 
 use std::fmt::Write as _;

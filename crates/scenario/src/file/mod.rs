@@ -82,6 +82,17 @@ impl Scenario {
         read::table(table, origin)
     }
 
+    /// The vehicles and stations that it names: those that come with the project, and files relative to the scenario.
+    pub fn named_files(&self) -> impl Iterator<Item = &str> {
+        let flown = self.quadrotor.iter().map(|agent| &agent.vehicle);
+        let believed = self
+            .quadrotor
+            .iter()
+            .filter_map(|agent| agent.controller.vehicle.as_ref());
+        let stations = self.ets.iter().map(|agent| &agent.station);
+        flown.chain(believed).chain(stations).map(String::as_str)
+    }
+
     /// The JSON schema of scenario files, for editors.
     #[must_use]
     pub fn json_schema() -> serde_json::Value {

@@ -11,7 +11,7 @@
 
 mod output;
 
-use crate::disk::Beside;
+use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, Template, setting};
 use crate::{drawing, interrupt, measure, model, report};
@@ -106,9 +106,10 @@ struct Model {
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
     model::check(&scenario)?;
-    if let Some(path) = &arguments.plot {
-        drawing::check(path)?;
-    }
+    drawing::check(
+        arguments.plot.as_deref(),
+        &disk::inputs(&arguments.scenario, &scenario),
+    )?;
     interrupt::listen();
     let files = Beside::of(&arguments.scenario);
     let mut question = Question::new(&scenario, &files, &arguments.metric, arguments.keep_controllers);
@@ -123,11 +124,11 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         drawing::write(path, &output::figure(&arguments.metric, &pairs))?;
     }
     if json {
-        report::print(&output::json(&arguments.metric, &pairs));
+        report::print(&output::json(&arguments.metric, &pairs))?;
     } else {
-        report::say(output::text(&arguments.metric, &pairs));
+        report::say(output::text(&arguments.metric, &pairs))?;
         if let Some(path) = &arguments.plot {
-            report::say(format!("drawn: {}\n", path.display()));
+            report::say(format!("drawn: {}\n", path.display()))?;
         }
     }
     let all = pairs.iter().all(|(.., explained)| explained.is_ok());

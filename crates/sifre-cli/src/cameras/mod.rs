@@ -52,7 +52,7 @@ impl Judged {
 /// Places cameras.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let Some(path) = arguments.room.as_ref().filter(|_| !arguments.template) else {
-        report::say(RoomFile::TEMPLATE);
+        report::say(RoomFile::TEMPLATE)?;
         return Ok(Exit::Done);
     };
     let file = RoomFile::from_toml_str(&disk::read(path)?)
@@ -61,12 +61,14 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let task = file.task().map_err(refuse)?;
     let rig = file.wall_rig().map_err(refuse)?;
     if let Some(plot) = &arguments.plot {
-        drawing::check(plot)?;
+        drawing::is_png(plot)?;
     }
-    if let Some(out) = &arguments.out {
-        disk::is_no_input(out, std::slice::from_ref(path))?;
-        disk::can_be_replaced(out)?;
-    }
+    let outputs: Vec<PathBuf> = [&arguments.out, &arguments.plot]
+        .into_iter()
+        .flatten()
+        .cloned()
+        .collect();
+    disk::check_outputs(std::slice::from_ref(path), &outputs)?;
     let installed = file.installed();
     let begun = if installed.is_empty() {
         Judged::of(&task, "first guess", rig.cameras(&rig.first_guess()))
@@ -88,9 +90,9 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         drawing::write(plot, &output::figure(&file, &task, &judged))?;
     }
     if json {
-        report::print(&output::json(&judged, found.as_ref()));
+        report::print(&output::json(&judged, found.as_ref()))?;
     } else {
-        report::say(output::text(&file, &judged, found.as_ref()));
+        report::say(output::text(&file, &judged, found.as_ref()))?;
     }
     Ok(match found {
         Some(Report {

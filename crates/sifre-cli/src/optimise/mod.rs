@@ -10,7 +10,7 @@ mod state;
 
 use crate::exit::{Exit, Failure};
 use crate::varied::{Setting, setting};
-use crate::{interrupt, report};
+use crate::{disk, interrupt, report};
 use indicatif::{ProgressBar, ProgressStyle};
 use optim::{Candidate, FAILED_COST, StopReason};
 use problem::{Flown, Keep, Problem};
@@ -63,6 +63,12 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         ));
     }
     let path = arguments.out.join("state.json");
+    let outputs: Vec<PathBuf> = output::names(&problem)
+        .map(|name| arguments.out.join(name))
+        .chain([path.clone()])
+        .collect();
+    let scenario = problem.template.with([])?;
+    ::output::keep_apart(&disk::inputs(&arguments.scenario, &scenario), &outputs)?;
     let mut state = match (arguments.resume, path.exists()) {
         (true, _) => State::read(&path, &problem)?,
         (false, true) => {
@@ -73,10 +79,12 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         }
         (false, false) => State::new(&problem)?,
     };
-    std::fs::create_dir_all(&arguments.out).map_err(|source| Failure::Write {
+    let refuse = |source| Failure::Write {
         path: arguments.out.clone(),
         source,
-    })?;
+    };
+    std::fs::create_dir_all(&arguments.out).map_err(refuse)?;
+    let _alone = ::output::lock_folder(&arguments.out).map_err(refuse)?;
     interrupt::listen();
     let hidden = arguments.quiet || json;
     for k in 0..state.courses.len() {
@@ -97,9 +105,9 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         return Ok(Exit::Interrupted);
     };
     if json {
-        report::print(&summary.json());
+        report::print(&summary.json())?;
     } else {
-        report::say(summary.text());
+        report::say(summary.text())?;
     }
     Ok(Exit::Done)
 }

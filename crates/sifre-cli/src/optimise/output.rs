@@ -1,7 +1,7 @@
 //! What an optimisation leaves: the best scenario, the history, pictures, and a report.
 
 use super::problem::{Keep, Problem};
-use super::state::{Course, State};
+use super::state::{Course, State, label};
 use crate::exit::Failure;
 use crate::{disk, drawing};
 use optim::StopReason;
@@ -32,6 +32,21 @@ struct Found {
     stop: StopReason,
 }
 
+/// Names of the files that are written for each level.
+const FILES: [(&str, &str); 5] = [
+    ("best", "toml"),
+    ("history", "csv"),
+    ("best", "csv"),
+    ("history", "svg"),
+    ("best", "svg"),
+];
+
+/// Names of all files that [`write`] makes.
+pub(super) fn names(problem: &Problem) -> impl Iterator<Item = String> {
+    let labels = problem.levels().into_iter().map(label);
+    labels.flat_map(|label| FILES.map(|(name, ending)| format!("{name}{label}.{ending}")))
+}
+
 /// Writes everything; nothing if it was interrupted.
 pub(super) fn write(problem: &Problem, state: &State, folder: &Path) -> Result<Option<Summary>, Failure> {
     let mut found = Vec::new();
@@ -48,17 +63,17 @@ pub(super) fn write(problem: &Problem, state: &State, folder: &Path) -> Result<O
                 "the best flight can't be flown again: {why}"
             )));
         };
-        let file = |name: &str, ending: &str| folder.join(format!("{name}{}.{ending}", course.label()));
-        disk::write(
+        let file = |name: &str, ending: &str| folder.join(format!("{name}{}.{ending}", label(course.level)));
+        disk::replace(
             &file("best", "toml"),
             best_scenario(problem, course, &best.values)?,
         )?;
-        disk::write(&file("history", "csv"), history(problem, course)?)?;
+        disk::replace(&file("history", "csv"), history(problem, course)?)?;
         let refuse = |source| Failure::Recording {
             path: file("best", "csv"),
             source,
         };
-        disk::write(&file("best", "csv"), as_csv(&recording).map_err(refuse)?)?;
+        disk::replace(&file("best", "csv"), as_csv(&recording).map_err(refuse)?)?;
         drawing::write(&file("history", "svg"), &costs(course))?;
         drawing::write(&file("best", "svg"), &trajectory(problem, &recording))?;
         found.push(Found {

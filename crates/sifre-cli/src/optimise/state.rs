@@ -1,6 +1,6 @@
 //! The state of an optimisation on disk: what was flown, and the searches as they are.
 //!
-//! It is written beside the old one and then takes its name, so that there is a whole one at any time.
+//! It has a check sum and is replaced as a whole, so that a complete one exists at any time.
 
 use super::problem::Problem;
 use crate::disk;
@@ -14,10 +14,15 @@ use scenario::Algorithm;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
+/// Most bytes of a state: ten million flights.
+const LONGEST_STATE: u64 = 1 << 30;
+
 /// Everything that is known.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct State {
+    /// Of the rest.
+    check_sum: String,
     /// What was asked; another question is another state.
     fingerprint: String,
     /// One search per level.
@@ -77,6 +82,7 @@ impl State {
         };
         let courses: Result<Vec<Course>, SetupError> = problem.levels().into_iter().map(course).collect();
         Ok(Self {
+            check_sum: String::new(),
             fingerprint: fingerprint(problem),
             courses: courses.map_err(|error| Failure::Usage(format!("optimise: {error}")))?,
         })
@@ -84,9 +90,15 @@ impl State {
 
     /// The state of this problem on disk.
     pub(super) fn read(path: &Path, problem: &Problem) -> Result<Self, Failure> {
-        let text = disk::read(path)?;
-        let state: Self = serde_json::from_str(&text)
-            .map_err(|error| Failure::Usage(format!("{}: not a state: {error}", path.display())))?;
+        let text = disk::read_up_to(path, LONGEST_STATE)?;
+        let refuse =
+            |why: &str| Failure::Usage(format!("{}: not a state of a search: {why}", path.display()));
+        let state: Self = serde_json::from_str(&text).map_err(|error| refuse(&error.to_string()))?;
+        if state.check_sum != state.sum().map_err(|error| refuse(&error.to_string()))? {
+            return Err(refuse(
+                "it is not as it was written, its check sum differs; begin anew with another --out",
+            ));
+        }
         if state.fingerprint != fingerprint(problem) {
             return Err(Failure::Usage(format!(
                 "{} is of another scenario or vehicle: only `budget` may change before --resume",
@@ -97,12 +109,19 @@ impl State {
     }
 
     /// Writes it, whole at any time.
-    pub(super) fn write(&self, path: &Path) -> Result<(), Failure> {
-        let text = serde_json::to_string(self).map_err(|error| Failure::Write {
+    pub(super) fn write(&mut self, path: &Path) -> Result<(), Failure> {
+        let refuse = |error: serde_json::Error| Failure::Write {
             path: path.to_owned(),
             source: error.into(),
-        })?;
-        disk::replace(path, text)
+        };
+        self.check_sum = self.sum().map_err(refuse)?;
+        disk::replace(path, serde_json::to_string(self).map_err(refuse)?)
+    }
+
+    /// The check sum of all but itself. Numbers come back from JSON bit for bit, so it is the same after reading.
+    fn sum(&self) -> Result<String, serde_json::Error> {
+        let all = serde_json::to_string(&(&self.fingerprint, &self.courses))?;
+        Ok(output::checksum(all.as_bytes()))
     }
 }
 
@@ -137,12 +156,11 @@ impl Course {
         let costs = sound.filter_map(|row| row.cost.filter(|c| c.is_finite()).map(|cost| (row, cost)));
         costs.min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.candidate.cmp(&b.0.candidate)))
     }
+}
 
-    /// Its files' names.
-    pub(super) fn label(&self) -> String {
-        self.level
-            .map_or_else(String::new, |level| format!("-level-{}", level.number()))
-    }
+/// What the names of a level's files have in them; nothing where the level is the scenario's.
+pub(super) fn label(level: Option<Level>) -> String {
+    level.map_or_else(String::new, |level| format!("-level-{}", level.number()))
 }
 
 impl AnySearch {

@@ -6,7 +6,7 @@
 mod output;
 
 use crate::attribute::{self, Question};
-use crate::disk::Beside;
+use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::sweep::axes::{self, Axis};
 use crate::varied::{Setting, Template};
@@ -57,6 +57,9 @@ pub(crate) struct Arguments {
     keep_controllers: bool,
 }
 
+/// Most cases: each is flown at five levels before there is an answer.
+const MOST_CASES: u64 = 10_000;
+
 /// A number that is asked for, in one case.
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
@@ -88,6 +91,15 @@ pub(crate) struct Evidence {
 /// Selects a level.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let template = Template::read(&arguments.scenario)?;
+    let sizes = arguments.sets.iter().map(|axis| axis.values.len() as u64);
+    let cases = sizes
+        .chain([arguments.metrics.len() as u64])
+        .try_fold(1, u64::checked_mul);
+    if cases.is_none_or(|cases| cases > MOST_CASES) {
+        return Err(Failure::Usage(format!(
+            "--set and --metric give more than {MOST_CASES} cases: ask in parts"
+        )));
+    }
     let points = grid(&arguments.sets);
     let scenarios: Vec<Scenario> = points
         .iter()
@@ -96,9 +108,11 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     for scenario in &scenarios {
         model::check(scenario)?;
     }
-    if let Some(path) = &arguments.plot {
-        drawing::check(path)?;
-    }
+    let inputs: Vec<PathBuf> = scenarios
+        .iter()
+        .flat_map(|scenario| disk::inputs(&arguments.scenario, scenario))
+        .collect();
+    drawing::check(arguments.plot.as_deref(), &inputs)?;
     let tolerance = Tolerance {
         absolute: arguments.tolerance,
         relative: arguments.relative,
@@ -132,11 +146,11 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         drawing::write(path, &output::figure(&evidence))?;
     }
     if json {
-        report::print(&output::json(&evidence));
+        report::print(&output::json(&evidence))?;
     } else {
-        report::say(output::text(&evidence));
+        report::say(output::text(&evidence))?;
         if let Some(path) = &arguments.plot {
-            report::say(format!("drawn: {}\n", path.display()));
+            report::say(format!("drawn: {}\n", path.display()))?;
         }
     }
     Ok(Exit::Done)

@@ -12,7 +12,47 @@ pub(crate) struct Axis {
     /// Path of the key.
     pub(crate) key: String,
     /// Its values.
-    pub(crate) values: Vec<Value>,
+    pub(crate) values: Values,
+}
+
+/// The values of an [`Axis`].
+#[derive(Clone, Debug)]
+pub(crate) enum Values {
+    /// As given.
+    List(Vec<Value>),
+    /// Evenly spaced, both ends included; at least two.
+    Range { low: f64, high: f64, count: u32 },
+}
+
+impl Values {
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::List(values) => values.len(),
+            Self::Range { count, .. } => *count as usize,
+        }
+    }
+
+    /// One of them, from 0.
+    fn at(&self, place: usize) -> Value {
+        match self {
+            Self::List(values) => values[place].clone(),
+            Self::Range { low, high, count } => {
+                // Weights instead of increments: both ends are met exactly.
+                let share = place as f64 / f64::from(count - 1);
+                Value::Float(low * (1.0 - share) + high * share)
+            }
+        }
+    }
+
+    /// The texts among them, which may be names of files.
+    pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
+        let list = match self {
+            Self::List(values) => values.as_slice(),
+            Self::Range { .. } => &[],
+        };
+        list.iter().filter_map(Value::as_str)
+    }
 }
 
 /// A key that is drawn.
@@ -34,7 +74,7 @@ impl Axis {
     pub(crate) fn setting(&self, place: usize) -> Setting {
         Setting {
             key: self.key.clone(),
-            value: self.values[place].clone(),
+            value: self.values.at(place),
         }
     }
 }
@@ -66,6 +106,7 @@ pub(crate) fn set(text: &str) -> Result<Axis, String> {
     if values.is_empty() {
         return Err(format!("\"{text}\": there are no values"));
     }
+    let values = Values::List(values);
     Ok(Axis { key, values })
 }
 
@@ -79,14 +120,9 @@ pub(crate) fn range(text: &str) -> Result<Axis, String> {
     };
     let (low, high) = (number(low)?, number(high)?);
     let count: u32 = count.trim().parse().ok().filter(|&n| n >= 2).ok_or_else(wrong)?;
-    // Weights instead of increments: both ends are met exactly.
-    let value = |k: u32| {
-        let share = f64::from(k) / f64::from(count - 1);
-        Value::Float(low * (1.0 - share) + high * share)
-    };
     Ok(Axis {
         key,
-        values: (0..count).map(value).collect(),
+        values: Values::Range { low, high, count },
     })
 }
 

@@ -9,7 +9,7 @@ pub(crate) mod axes;
 mod journal;
 mod table;
 
-use crate::disk::{Beside, Remembering};
+use crate::disk::{self, Beside, Remembering};
 use crate::exit::{Exit, Failure};
 use crate::varied::Template;
 use crate::{interrupt, report};
@@ -19,7 +19,7 @@ use journal::Journal;
 use rayon::prelude::*;
 use scenario::{End, Files, MetricsBox, Scenario};
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 /// Arguments of `sifre sweep`.
@@ -54,9 +54,28 @@ pub(crate) struct Arguments {
     /// Threads; as many as there are cores without it.
     #[arg(long)]
     jobs: Option<usize>,
-    /// Begin anew, even if a journal of this sweep is there.
+    /// Begin anew, even if a journal of this sweep exists.
     #[arg(long)]
     restart: bool,
+    /// Most runs; their rows are held in memory until the table is written, about a kilobyte each.
+    #[arg(long, value_name = "N", default_value_t = MOST_RUNS)]
+    most_runs: u64,
+}
+
+/// Most runs without being asked for more: a gigabyte of rows.
+pub(crate) const MOST_RUNS: u64 = 1_000_000;
+
+/// Refuses more runs than a limit, which may be raised.
+pub(crate) fn check_count(count: Option<u64>, most: u64) -> Result<u64, Failure> {
+    match count {
+        Some(count) if count <= most => Ok(count),
+        Some(count) => Err(Failure::Usage(format!(
+            "{count} runs are more than {most}: ask for fewer, or raise the limit with --most-runs {count}"
+        ))),
+        None => Err(Failure::Usage(
+            "more runs than can be counted: ask for fewer".to_owned(),
+        )),
+    }
 }
 
 /// One run: a row of the table.
@@ -64,7 +83,8 @@ pub(crate) struct Arguments {
 pub(crate) struct Row {
     /// Its number.
     pub(crate) run: u64,
-    /// Values of the keys that are varied, in the order of the arguments.
+    /// Values of the keys that are varied, in the order of the arguments; they follow from the number.
+    #[serde(skip)]
     pub(crate) inputs: Vec<toml::Value>,
     /// How it ended, in words.
     pub(crate) end: String,
@@ -80,8 +100,10 @@ pub(crate) struct Row {
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     table::check(&arguments.out)?;
     let plan = Plan::of(arguments)?;
+    let outputs = [arguments.out.clone(), journal::path_of(&arguments.out)];
+    disk::check_outputs(&plan.inputs_on_disk(&arguments.scenario)?, &outputs)?;
     interrupt::listen();
-    let journal = Journal::open(&arguments.out, &plan.fingerprint(), arguments.restart)?;
+    let journal = Journal::open(&arguments.out, &plan, arguments.restart)?;
     let done = journal.rows.len();
     let bar = progress_bar(plan.count, done as u64, json);
     let rows = plan.fly_all(journal, arguments.jobs, &bar)?;
@@ -102,7 +124,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         report::print(&serde_json::json!({
             "runs": rows.len(), "done": flown(Exit::Done), "ended_early": flown(Exit::Early),
             "refused": refused, "taken_from_journal": done, "output": arguments.out,
-        }));
+        }))?;
     } else {
         report::say(format!(
             "{} runs: {} done, {} ended early, {refused} could not be flown\nrecorded in {}\n",
@@ -110,7 +132,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
             flown(Exit::Done),
             flown(Exit::Early),
             arguments.out.display()
-        ));
+        ))?;
     }
     match rows.first() {
         Some(row) if refused == rows.len() => {
@@ -143,7 +165,7 @@ impl<'a> Plan<'a> {
             draws: arguments.normals.iter().chain(&arguments.uniforms).collect(),
             runs,
             seed: arguments.seed,
-            count: count.ok_or_else(|| Failure::Usage("more runs than can be counted".to_owned()))?,
+            count: check_count(count, arguments.most_runs)?,
             files: Beside::of(&arguments.scenario),
         };
         // Keys that don't exist are told before anything is flown.
@@ -166,12 +188,11 @@ impl<'a> Plan<'a> {
             .template
             .with(&self.settings(0))
             .map(|scenario| scenario.build(&files));
-        let values = self.axes.iter().flat_map(|axis| &axis.values);
-        for name in values.filter_map(toml::Value::as_str) {
+        for name in self.axes.iter().flat_map(|axis| axis.values.texts()) {
             // Not every word is a file's name.
             let _ = files.text(name);
         }
-        format!(
+        let all = format!(
             "{:?} {:?} {:?} {:?} runs {} seed {} of {}",
             self.axes,
             self.draws,
@@ -180,7 +201,24 @@ impl<'a> Plan<'a> {
             self.runs,
             self.seed,
             env!("CARGO_PKG_VERSION")
-        )
+        );
+        output::checksum(all.as_bytes())
+    }
+
+    /// The files that its runs read.
+    fn inputs_on_disk(&self, scenario: &Path) -> Result<Vec<PathBuf>, Failure> {
+        let mut inputs = disk::inputs(scenario, &self.template.with(&self.settings(0))?);
+        let named = self.axes.iter().flat_map(|axis| axis.values.texts());
+        inputs.extend(named.map(|name| self.files.path(name)));
+        Ok(inputs)
+    }
+
+    /// What a run varies.
+    fn inputs(&self, run: u64) -> Vec<toml::Value> {
+        self.settings(run)
+            .into_iter()
+            .map(|setting| setting.value)
+            .collect()
     }
 
     /// The keys of a run.
@@ -201,12 +239,9 @@ impl<'a> Plan<'a> {
     /// Flies all runs that the journal doesn't have; the rows that there are then, in order.
     fn fly_all(&self, journal: Journal, jobs: Option<usize>, bar: &ProgressBar) -> Result<Vec<Row>, Failure> {
         let has: Vec<u64> = journal.rows.iter().map(|row| row.run).collect();
-        let left: Vec<u64> = (0..self.count)
-            .filter(|run| has.binary_search(run).is_err())
-            .collect();
         let journal = Mutex::new(journal);
-        let one = |&run: &u64| -> Result<(), Failure> {
-            if interrupt::asked() {
+        let one = |run: u64| -> Result<(), Failure> {
+            if interrupt::asked() || has.binary_search(&run).is_ok() {
                 return Ok(());
             }
             let Some(row) = self.fly(run) else {
@@ -219,7 +254,7 @@ impl<'a> Plan<'a> {
                 .unwrap_or_else(std::sync::PoisonError::into_inner)
                 .add(row)
         };
-        threads(jobs)?.install(|| left.par_iter().try_for_each(one))?;
+        threads(jobs)?.install(|| (0..self.count).into_par_iter().try_for_each(one))?;
         let mut rows = journal
             .into_inner()
             .unwrap_or_else(std::sync::PoisonError::into_inner)
@@ -231,7 +266,7 @@ impl<'a> Plan<'a> {
     /// Flies one run; nothing if it was interrupted.
     fn fly(&self, run: u64) -> Option<Row> {
         let settings = self.settings(run);
-        let inputs = settings.iter().map(|setting| setting.value.clone()).collect();
+        let inputs = self.inputs(run);
         let flown = self.template.with(&settings).and_then(|mut scenario| {
             scenario.seed = scenario.seed.wrapping_add(run % self.runs);
             fly(&scenario, &self.files)

@@ -53,7 +53,7 @@ pub(crate) fn write(path: &Path, keys: &[String], rows: &[Row]) -> Result<(), Fa
         Some("csv") => csv(&columns, rows.len()).map_err(|error| refuse(error.to_string()))?,
         _ => parquet(&columns).map_err(|error| refuse(error.to_string()))?,
     };
-    disk::write(path, content)
+    disk::replace(path, content)
 }
 
 /// Number, inputs, end, exit code, time, metrics.

@@ -11,7 +11,7 @@ mod statistics;
 use crate::disk::Beside;
 use crate::exit::{Exit, Failure};
 use crate::measure::{self, Measured};
-use crate::sweep::{progress_bar, threads};
+use crate::sweep::{MOST_RUNS, check_count, progress_bar, threads};
 use crate::varied::{Setting, Template, setting};
 use crate::{interrupt, report};
 use indicatif::ProgressBar;
@@ -54,10 +54,14 @@ pub(crate) struct Arguments {
     /// Threads; as many as there are cores without it.
     #[arg(long)]
     jobs: Option<usize>,
+    /// Most runs; their numbers are held in memory, about a kilobyte each.
+    #[arg(long, value_name = "N", default_value_t = MOST_RUNS)]
+    most_runs: u64,
 }
 
 /// Carries standard errors to a flight's numbers.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
+    check_count(Some(arguments.runs.into()), arguments.most_runs)?;
     let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
     let ensemble = Ensemble::of(scenario, Beside::of(&arguments.scenario), arguments.seed)?;
     let pool = threads(arguments.jobs)?;
@@ -81,9 +85,9 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let left = flown.iter().filter(|flown| flown.is_none()).count();
     let answer = statistics::Answer::of(&ensemble, &nominal, jobs.iter().copied().zip(flown));
     if json {
-        report::print(&output::json(&ensemble, &answer));
+        report::print(&output::json(&ensemble, &answer))?;
     } else {
-        report::say(output::text(&ensemble, &answer));
+        report::say(output::text(&ensemble, &answer))?;
     }
     if left > 0 {
         report::complain(format!(

@@ -96,7 +96,7 @@ fn exact_outputs_that_are_inputs_or_no_recordings_exit_with_2() {
     folder
         .run(&["run", "-q", "own.toml"])
         .exits(2)
-        .says(&["own.toml is an input of this flight"]);
+        .says(&["own.toml is an input and would be overwritten"]);
     let vehicle = "quadrotor.alpha.vehicle=\"drone.toml\"";
     for output in [
         ["--set", "output.path=\"./drone.toml\""],
@@ -106,7 +106,7 @@ fn exact_outputs_that_are_inputs_or_no_recordings_exit_with_2() {
         folder
             .run(&[&arguments[..], &output].concat())
             .exits(2)
-            .says(&["drone.toml is an input of this flight"]);
+            .says(&["drone.toml", "would be overwritten"]);
     }
     assert_eq!(fs::read_to_string(folder.path("own.toml")).unwrap(), own);
     assert_eq!(

@@ -73,7 +73,7 @@ fn exact_rooms_that_are_wrong_exit_with_2() {
         &["bad.toml", "wdith_m", "width_m"],
     );
     says("needed = 3", "needed = 0", &["at least one camera must see"]);
-    says("cameras = 8", "cameras = 0", &["at least one camera, not 0"]);
+    says("cameras = 8", "cameras = 0", &["1 to 1024 cameras, not 0"]);
     says("most_height_m = 3.8", "most_height_m = 5.0", &["5 m", "4 m"]);
     says(
         "evaluations = 4000",

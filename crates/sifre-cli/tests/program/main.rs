@@ -5,6 +5,7 @@ mod cameras;
 mod commands;
 mod interrupted;
 mod optimise;
+mod outputs;
 mod questions;
 mod saved;
 mod support;

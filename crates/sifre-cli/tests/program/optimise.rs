@@ -140,7 +140,7 @@ fn exact_bad_problems_exit_with_2() {
     refuses("optimise.variables=[]", &["at least one variable"]);
     refuses(
         &variable(&format!("{key}, lower = 9, upper = 1")),
-        &["x_0_m", "between 9 and 1"],
+        &["x_0_m", "lower < upper, got [9, 1]"],
     );
     refuses(
         &variable(&format!("{key}, lower = 1, upper = 1")),

@@ -172,7 +172,11 @@ fn exact_what_can_not_be_flown_is_a_row_and_all_of_it_an_error() {
 #[test]
 fn exact_a_journal_of_another_sweep_is_not_taken() {
     let folder = Folder::new("journal");
-    folder.write("a.csv.journal", "{\"sifre_sweep\":\"another\"}\n");
+    let head = "{\"sifre_sweep\":\"another\"}";
+    folder.write(
+        "a.csv.journal",
+        format!("{} {head}\n", output::checksum(head.as_bytes())),
+    );
     let hover = ready("hover");
     let sweep = ["sweep", &hover, "-o", "a.csv"];
     folder

@@ -11,11 +11,16 @@
 //! wanted is not armed (NaN), are left out. Source: PX4's message definitions `SensorCombined.msg`, `ActuatorMotors.msg`
 //! (since version 1.14; older logs have no `actuator_motors`).
 
+mod structure;
+
 use crate::input::Recorded;
 use crate::output::Answer;
 use nalgebra::Vector3;
 use px4_ulog::stream_parser::{DataMessage, Message, SimpleCallbackResult, read_file_with_simple_callback};
 use std::error::Error;
+use std::fs::File;
+use std::io::BufReader;
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use sysid::recorded::InertialLog;
 
@@ -30,15 +35,26 @@ pub(crate) fn flight(
 ) -> Result<Recorded, Box<dyn Error>> {
     let name = path.display();
     let text = path.to_str().ok_or("a ULog's path must be UTF-8")?;
+    let named = |error: String| format!("{name}: {error}");
+    let file = File::open(path).map_err(|e| named(e.to_string()))?;
+    if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
+        return Err(named("a ULog is read twice, so it must be a file".to_owned()).into());
+    }
+    structure::check(BufReader::new(file)).map_err(named)?;
     let mut gathered = Gathered::new(motors);
-    let end = read_file_with_simple_callback(text, &mut |message| {
-        if let Message::Data(data) = message {
-            gathered.take(data);
-        }
-        SimpleCallbackResult::KeepReading
-    })
-    .map_err(|e| format!("{name}: {e}"))?;
-    if end.is_incomplete() {
+    let end = caught(|| {
+        read_file_with_simple_callback(text, &mut |message| {
+            if let Message::Data(data) = message {
+                gathered.take(data);
+            }
+            SimpleCallbackResult::KeepReading
+        })
+    });
+    let is_damaged = match end {
+        Some(end) => end.map_err(|e| named(e.to_string()))?.is_incomplete(),
+        None => true,
+    };
+    if is_damaged {
         answer.warnings.push(format!(
             "{name}: the log is cut off or damaged; what comes before is used"
         ));
@@ -50,6 +66,16 @@ pub(crate) fn flight(
         ));
     }
     gathered.log(&name.to_string())
+}
+
+/// What a reading by the library gives; nothing if a message that is shorter than it should be makes the library panic, which ends the reading as the
+/// end of the file would.
+fn caught<T>(read: impl FnOnce() -> T) -> Option<T> {
+    let hook = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let read = panic::catch_unwind(AssertUnwindSafe(read));
+    panic::set_hook(hook);
+    read.ok()
 }
 
 /// What has been read.
