@@ -10,7 +10,9 @@ use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{AnyController, C3, Settings, TiltLaw, Waypoint};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelChoice, Script, Setup, Start};
-use sifre::{Ets, EtsSetup, Facing, Member, Mission, Quadrotor, Recording, Schedule, Simulation, steps};
+use sifre::{
+    Engine, EtsSetup, Facing, GimballedEts, Member, Mission, ModelQuadrotor, Recording, Schedule, steps,
+};
 use std::error::Error;
 use std::sync::Arc;
 
@@ -65,9 +67,9 @@ fn fly() -> Result<Recording, Box<dyn Error>> {
         pan_rad: y.atan2(x) + 0.2,
         ..EtsSetup::nominal("station", "alpha")
     };
-    let mut simulation = Simulation::new(vec![
-        Member::new(Quadrotor::new(alpha)?, steps::QUADROTOR.step),
-        Member::new(Ets::new(ets), steps::ETS.step),
+    let mut simulation = Engine::new(vec![
+        Member::new(ModelQuadrotor::new(alpha)?, steps::QUADROTOR.step),
+        Member::new(GimballedEts::new(ets), steps::ETS.step),
     ])?;
     let id = simulation.attach(steps::BLACK_BOX.step, MemoryBox::default())?;
     simulation.run(DURATION_S, &mut ())?;

@@ -12,12 +12,12 @@
 //! ```
 //! use animate::{Options, Scene, html};
 //! use sifre::black_box::MemoryBox;
-//! use sifre::{Ets, EtsSetup, Member, Simulation, Target, steps};
+//! use sifre::{GimballedEts, EtsSetup, Member, Engine, Target, steps};
 //!
 //! // A station that finds a target, for a second.
-//! let mut simulation = Simulation::new(vec![
+//! let mut simulation = Engine::new(vec![
 //!     Member::new(Target::fixed("mark", [4.0, 0.5, -1.0].into()), steps::TARGET.step),
-//!     Member::new(Ets::new(EtsSetup::nominal("station", "mark")), steps::ETS.step),
+//!     Member::new(GimballedEts::new(EtsSetup::nominal("station", "mark")), steps::ETS.step),
 //! ])?;
 //! let id = simulation.attach(steps::BLACK_BOX.step, MemoryBox::default())?;
 //! simulation.run(1.0, &mut ())?;

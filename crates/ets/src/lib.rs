@@ -55,6 +55,7 @@
 //! No time, no random numbers, no files: the step's number, noise samples and texts are arguments. No turbulence of the air,
 //! no lens distortion, no thermal limits of the cells, no eye-safety verdict: [`PowerBudget::missed`] is the number to judge by.
 
+mod aim;
 mod atmosphere;
 mod beam;
 mod camera;

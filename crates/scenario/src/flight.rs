@@ -4,7 +4,7 @@ use crate::assemble::{AgentInfo, Built, Goal};
 use crate::error::ScenarioError;
 use crate::file::{BoxLimits, OutputFile, StopFile};
 use sifre::{
-    AgentEvent, Event, Member, Observer, Progress, RunReport, RunStatus, Scene, Simulation, SimulationError,
+    AgentEvent, Engine, Event, Member, Observer, Progress, RunReport, RunStatus, Scene, SimulationError,
     SimulationSnapshot, StepSize, StopCondition, Who, steps,
 };
 use std::ops::ControlFlow;
@@ -21,7 +21,7 @@ const ARRIVED: &str = "all quadrotors have arrived";
 #[derive(Debug)]
 pub struct Flight {
     /// The simulation; attach black boxes before the run.
-    pub simulation: Simulation,
+    pub simulation: Engine,
     /// What there is to know about its agents.
     pub agents: Vec<AgentInfo>,
     /// How long it lasts, s.
@@ -59,21 +59,21 @@ impl Built {
     /// # Errors
     /// No agents; two of one name; one that looks at itself or at one that isn't there.
     pub fn fly(self) -> Result<Flight, ScenarioError> {
-        self.fly_in(|members| Ok(Simulation::new(members)?))
+        self.fly_in(|members| Ok(Engine::new(members)?))
     }
 
-    /// The same, going on from a saved flight of these agents ([`Simulation::save`]): bit for bit as if it had never been
+    /// The same, going on from a saved flight of these agents ([`Engine::save`]): bit for bit as if it had never been
     /// interrupted, if the scenario is the same.
     ///
     /// # Errors
     /// As [`Self::fly`]; a snapshot of other agents, kinds or steps.
     pub fn fly_on(self, from: &SimulationSnapshot) -> Result<Flight, ScenarioError> {
-        self.fly_in(|members| Ok(Simulation::resume(members, from)?))
+        self.fly_in(|members| Ok(Engine::resume(members, from)?))
     }
 
     fn fly_in(
         self,
-        simulation: impl FnOnce(Vec<Member>) -> Result<Simulation, ScenarioError>,
+        simulation: impl FnOnce(Vec<Member>) -> Result<Engine, ScenarioError>,
     ) -> Result<Flight, ScenarioError> {
         let quadrotors = self.agents.iter().filter(|agent| agent.is_quadrotor());
         let quadrotors: Vec<String> = quadrotors.map(|agent| agent.name.clone()).collect();

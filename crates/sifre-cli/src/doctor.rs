@@ -7,7 +7,7 @@ use quad_dynamics::Vehicle;
 use scenario::{Scenario, VEHICLES};
 use serde_json::json;
 use sifre::black_box::CsvBox;
-use sifre::{Quadrotor, Recording};
+use sifre::{ModelQuadrotor, Recording};
 use std::error::Error;
 use std::fs::File;
 use std::time::Instant;
@@ -102,7 +102,7 @@ fn hover() -> Result<String, Box<dyn Error>> {
     let vehicle = Vehicle::qball_x4();
     let weight = vehicle.airframe.mass * vehicle.environment.gravity;
     let expected = weight / (4.0 * vehicle.linear_rotor.thrust_gain);
-    let alpha: &Quadrotor = flight.simulation.agent("alpha").ok_or("the agent is gone")?;
+    let alpha: &ModelQuadrotor = flight.simulation.agent("alpha").ok_or("the agent is gone")?;
     let commands = alpha.input().commands;
     if commands
         .iter()

@@ -3,14 +3,14 @@
 use crate::exit::Failure;
 use scenario::Format;
 use sifre::black_box::{CsvBox, JsonLinesBox, ParquetBox, Recovered, Selected, Selection};
-use sifre::{BlackBox, BlackBoxError, Recording, Simulation, StepSize};
+use sifre::{BlackBox, BlackBoxError, Engine, Recording, StepSize};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 /// Opens a file for a recording and attaches it.
 pub(crate) fn attach(
-    simulation: &mut Simulation,
+    simulation: &mut Engine,
     path: &Path,
     format: Format,
     step: StepSize,

@@ -3,7 +3,7 @@
 use crate::disk;
 use crate::exit::Failure;
 use scenario::{AgentInfo, AgentKind, Built, Flight};
-use sifre::{Quadrotor, SimulationSnapshot, SnapshotError};
+use sifre::{ModelQuadrotor, SimulationSnapshot, SnapshotError};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -34,7 +34,7 @@ pub(crate) fn notes(flight: &Flight) -> Vec<String> {
         let AgentKind::Quadrotor { level: said, .. } = agent.kind else {
             return None;
         };
-        let level = flight.simulation.agent::<Quadrotor>(&agent.name)?.level();
+        let level = flight.simulation.agent::<ModelQuadrotor>(&agent.name)?.level();
         (level != said).then(|| {
             format!(
                 "\"{}\" goes on at level {}, where it was; `level = {}` is that of the start (level_changes changes it on the way)",

@@ -9,7 +9,7 @@ use quad_dynamics::{Input, Level, Level3, QuadrotorModel, Vehicle};
 use quad_ndi::{Airborne, AnyController, C3, ClosedLoop, InCharge, Reference, Settings};
 use sifre::black_box::CsvBox;
 use sifre::quadrotor::Setup;
-use sifre::{Execution, Member, Quadrotor, Simulation, StepSize};
+use sifre::{Engine, Execution, Member, ModelQuadrotor, StepSize};
 use std::sync::Arc;
 
 fn main() {
@@ -30,15 +30,18 @@ fn c3(vehicle: &Vehicle) -> C3<f64> {
     C3::new(vehicle, &Settings::default()).expect("default settings are valid")
 }
 
-fn simulation(agents: usize) -> Simulation {
+fn simulation(agents: usize) -> Engine {
     let vehicle = Arc::new(Vehicle::qball_x4());
     let step = StepSize::from_seconds(STEP_S).expect("a millisecond");
     let member = |i| {
         let pilot = AnyController::C3(c3(&vehicle).into());
         let setup = Setup::new(format!("agent-{i}"), &vehicle, Level::Three, pilot, reference());
-        Member::new(Quadrotor::new(setup).expect("the nominal vehicle flies"), step)
+        Member::new(
+            ModelQuadrotor::new(setup).expect("the nominal vehicle flies"),
+            step,
+        )
     };
-    Simulation::new((0..agents).map(member).collect()).expect("names differ")
+    Engine::new((0..agents).map(member).collect()).expect("names differ")
 }
 
 /// The physics alone: the pure step, as rollouts repeat it.

@@ -9,8 +9,8 @@ use quad_ndi::{AnyController, C3, Settings, TiltLaw, Waypoint};
 use sifre::black_box::{CsvBox, JsonLinesBox, ParquetBox};
 use sifre::quadrotor::{LevelChoice, Script, Setup, Start};
 use sifre::{
-    Ets, EtsSetup, Facing, Follow, Member, Mission, Progress, Quadrotor, Schedule, Simulation, StopCondition,
-    steps,
+    Engine, Ets as _, EtsSetup, Facing, Follow, GimballedEts, Member, Mission, ModelQuadrotor, Progress,
+    Schedule, StopCondition, steps,
 };
 use std::error::Error;
 use std::fs::File;
@@ -81,14 +81,14 @@ fn members() -> Result<Vec<Member>, Box<dyn Error>> {
         ..EtsSetup::nominal("station", "alpha")
     };
     Ok(vec![
-        Member::new(Quadrotor::new(alpha)?, steps::QUADROTOR.step),
-        Member::new(Quadrotor::new(bravo)?, steps::QUADROTOR.step),
-        Member::new(Ets::new(station), steps::ETS.step),
+        Member::new(ModelQuadrotor::new(alpha)?, steps::QUADROTOR.step),
+        Member::new(ModelQuadrotor::new(bravo)?, steps::QUADROTOR.step),
+        Member::new(GimballedEts::new(station), steps::ETS.step),
     ])
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut simulation = Simulation::new(members()?)?;
+    let mut simulation = Engine::new(members()?)?;
     simulation.stop_when(StopCondition::below_ground())?;
     if let Some(path) = std::env::args().nth(1) {
         let (file, every) = (File::create(&path)?, steps::BLACK_BOX.step);
@@ -109,9 +109,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             break;
         }
         let (Some(alpha), Some(bravo), Some(station)) = (
-            simulation.agent::<Quadrotor>("alpha"),
-            simulation.agent::<Quadrotor>("bravo"),
-            simulation.agent::<Ets>("station"),
+            simulation.agent::<ModelQuadrotor>("alpha"),
+            simulation.agent::<ModelQuadrotor>("bravo"),
+            simulation.agent::<GimballedEts>("station"),
         ) else {
             break;
         };

@@ -13,6 +13,7 @@
 
 use crate::clock::{StepSize, seconds};
 use crate::event::AgentEvent;
+use crate::speed::Hook;
 use crate::{BindError, Channel, UnknownAgent};
 use nalgebra::Vector3;
 use quad_kinematics::{Body, Rotation, World};
@@ -223,14 +224,10 @@ pub trait Agent: Any + Debug + Send {
     /// Where it is, at its latest instant.
     fn published(&self) -> Published;
 
-    /// Publishes where it is, unless a number isn't finite: what was published before then remains.
-    ///
-    /// Not to be overridden. It stands here so that it is compiled together with [`Agent::published`]: numbers are
-    /// checked and stored while they are at hand.
-    ///
-    /// # Errors
-    /// [`NotFinite`].
-    fn publish(&self, to: &mut Published) -> Result<(), NotFinite> {
+    /// Publishes where it is, unless a number isn't finite: what was published before then remains. Provided here so that
+    /// it is compiled together with [`Agent::published`]: numbers are checked and stored while they are at hand.
+    #[doc(hidden)]
+    fn publish(&self, to: &mut Published, _: Hook) -> Result<(), NotFinite> {
         let published = self.published();
         if !published.is_finite() {
             return Err(NotFinite);
@@ -246,7 +243,8 @@ pub trait Agent: Any + Debug + Send {
     fn advance(&mut self, now: &Moment<'_>);
 
     /// Decides and moves in one go, where nobody looks in between: bit for bit the two one after the other.
-    fn decide_and_advance(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+    #[doc(hidden)]
+    fn decide_and_advance(&mut self, now: &Moment<'_>, _: Hook) -> Option<AgentEvent> {
         let event = self.decide(now);
         self.advance(now);
         event

@@ -64,6 +64,12 @@ pub enum SimulationError {
     /// A time that the clock doesn't have.
     #[error("the end of the run: {0}")]
     Time(#[from] GridError),
+    /// A flight added to a batch that has begun or is recorded.
+    #[error("\"{name}\" can't be added: the batch has begun or is recorded; add all flights first")]
+    AlreadyBegun {
+        /// The flight.
+        name: String,
+    },
     /// An end before the present.
     #[error("the run is to end at {end_s} s, but the simulation is at {now_s} s already: give a later end")]
     EndBeforeNow {

@@ -12,6 +12,7 @@
 
 use crate::agent::{AgentId, Directory, Moment};
 use crate::error::UnknownAgent;
+use crate::speed::Hook;
 use nalgebra::Vector3;
 use quad_ndi::{AttitudeFeedForward, FlatOutput, Reference, TiltLaw, Trajectory, TrajectoryError, Waypoint};
 use serde::{Deserialize, Serialize};
@@ -41,8 +42,9 @@ pub trait Guidance: Debug + Send {
     /// What to do from this instant on.
     fn reference(&self, now: &Moment<'_>) -> Reference<f64>;
 
-    /// The same to look at: its own, where it is always the same, or else put into `room`.
-    fn show<'a>(&'a self, now: &Moment<'_>, room: &'a mut Reference<f64>) -> &'a Reference<f64> {
+    /// The same by reference: its own, where it is always the same, or else put into `room`.
+    #[doc(hidden)]
+    fn show<'a>(&'a self, now: &Moment<'_>, room: &'a mut Reference<f64>, _: Hook) -> &'a Reference<f64> {
         *room = self.reference(now);
         room
     }
@@ -63,7 +65,7 @@ impl Guidance for Reference<f64> {
 
     /// Nothing is copied.
     #[inline]
-    fn show<'a>(&'a self, _now: &Moment<'_>, _room: &'a mut Reference<f64>) -> &'a Reference<f64> {
+    fn show<'a>(&'a self, _: &Moment<'_>, _: &'a mut Reference<f64>, _: Hook) -> &'a Reference<f64> {
         self
     }
 }

@@ -5,7 +5,7 @@
 //! use quad_ndi::{AnyController, C3, Reference, Settings};
 //! use sifre::black_box::MemoryBox;
 //! use sifre::quadrotor::{Setup, Start};
-//! use sifre::{Follow, Member, Quadrotor, Simulation, steps};
+//! use sifre::{Engine, Follow, Member, ModelQuadrotor, steps};
 //! use std::sync::Arc;
 //!
 //! let vehicle = Arc::new(Vehicle::qball_x4());
@@ -18,9 +18,9 @@
 //! let start = Start { position_m: [0.0, -2.0, 0.0], yaw_rad: 0.0 };
 //! let bravo = Setup { start, ..Setup::new("bravo", &vehicle, Level::Five, c3, follow) };
 //!
-//! let mut simulation = Simulation::new(vec![
-//!     Member::new(Quadrotor::new(alpha)?, steps::QUADROTOR.step),
-//!     Member::new(Quadrotor::new(bravo)?, steps::QUADROTOR.step),
+//! let mut simulation = Engine::new(vec![
+//!     Member::new(ModelQuadrotor::new(alpha)?, steps::QUADROTOR.step),
+//!     Member::new(ModelQuadrotor::new(bravo)?, steps::QUADROTOR.step),
 //! ])?;
 //! let id = simulation.attach(steps::BLACK_BOX.step, MemoryBox::default())?;
 //! let report = simulation.run(5.0, &mut ())?;
@@ -38,15 +38,21 @@
 //!
 //! # Parts
 //!
-//! | of appendix A | here | standard implementations |
-//! | --- | --- | --- |
-//! | simulation | [`Simulation`] | |
-//! | black box | [`BlackBox`] | [`CsvBox`](black_box::CsvBox), [`JsonLinesBox`](black_box::JsonLinesBox), `ParquetBox`, [`MemoryBox`](black_box::MemoryBox) |
-//! | agent | [`Agent`] | [`Quadrotor`], [`Ets`], [`Target`] |
-//! | quadrotor | [`Quadrotor`] | flown by a [`Pilot`](quadrotor::Pilot): any controller or [`OpenLoop`](quadrotor::OpenLoop); asked by [`Guidance`]: [`Mission`], [`Follow`], [`Facing`], a fixed reference |
-//! | estimator on board | [`Estimation`](quadrotor::Estimation) | in the loop or beside it: any level, extended or unscented |
-//! | energy transmission system | [`Ets`] | |
-//! | optimiser | [`Optimiser`] | those of [`optim`]: simplex, line search, annealing, evolution, random search |
+//! The six classes of the source's appendix A are six traits. Your own type can take the place of any of them:
+//! `examples/your_own.rs` does so for each.
+//!
+//! | trait | standard implementations |
+//! | --- | --- |
+//! | [`Simulation`] | [`Engine`]: agents that see each other; [`Rollout`]: a batch of flights that don't, as pure loops |
+//! | [`BlackBox`] | [`CsvBox`](black_box::CsvBox), [`JsonLinesBox`](black_box::JsonLinesBox), `ParquetBox`, [`MemoryBox`](black_box::MemoryBox) |
+//! | [`Agent`] | every quadrotor and station below, and [`Target`] |
+//! | [`Quadrotor`]: `Agent` | [`ModelQuadrotor`]: a model at any level; [`RecordedQuadrotor`]: a flight that happened, played back |
+//! | [`Ets`]: `Agent` | [`GimballedEts`]: camera, tracker and gimbal; [`IdealEts`]: exact pointing, as the bound |
+//! | [`Optimiser`] | those of [`optim`]: simplex, line search, annealing, evolution, random search |
+//!
+//! A [`ModelQuadrotor`] is flown by a [`Pilot`](quadrotor::Pilot) (any controller, or [`OpenLoop`](quadrotor::OpenLoop)) and asked
+//! by [`Guidance`] ([`Mission`], [`Follow`], [`Facing`], a fixed reference). It may carry an [`Estimation`](quadrotor::Estimation),
+//! in the loop or beside it.
 //!
 //! # Time
 //!
@@ -59,10 +65,10 @@
 //!
 //! # Ends
 //!
-//! [`Simulation::run`] ends at its time, at a [`StopCondition`], where an agent's numbers stop being numbers, where an
+//! [`Engine::run`] ends at its time, at a [`StopCondition`], where an agent's numbers stop being numbers, where an
 //! estimator's filter refuses to go on, where the [`Observer`] asks for it (Ctrl-C), or where a black box fails: each is a [`RunStatus`] and loses nothing. The
-//! simulation can go on from there, or be saved ([`Simulation::save`]) and resumed elsewhere
-//! ([`Simulation::resume`]) as if nothing had been.
+//! simulation can go on from there, or be saved ([`Engine::save`]) and resumed elsewhere
+//! ([`Engine::resume`]) as if nothing had been.
 //!
 //! # What it does not do
 //!
@@ -77,33 +83,38 @@
 mod agent;
 pub mod black_box;
 mod clock;
+mod engine;
 mod error;
 mod ets;
 mod event;
 mod exact;
 mod guidance;
 pub mod quadrotor;
+mod rollout;
 mod schedule;
 mod simulation;
+mod speed;
 pub mod steps;
 mod target;
 
-pub use crate::ets::{Ets, EtsSetup};
+pub use crate::ets::{Ets, EtsSetup, GimballedEts, IdealEts};
 pub use agent::{Agent, AgentId, Directory, Member, MemoryError, Moment, NotFinite, Published};
 pub use black_box::{BlackBox, BlackBoxError, Channel, Recording};
 pub use clock::StepSize;
+pub use engine::{
+    AgentSnapshot, Engine, Execution, LastSeen, Observer, PROGRESS_EVERY, Phase, Progress, RecorderId,
+    ResumeError, RunReport, RunStatus, Scene, SimulationSnapshot, StopCondition, Test, Who,
+};
 pub use error::{BindError, SimulationError, SnapshotError, UnknownAgent};
 pub use event::{AgentEvent, Event};
 pub use exact::Exact;
 pub use guidance::{Facing, Follow, Guidance, Mission, Tilt};
 pub use optim::Optimiser;
 pub use quad_math::GridError;
-pub use quadrotor::Quadrotor;
+pub use quadrotor::{ModelQuadrotor, Quadrotor, RecordedQuadrotor};
+pub use rollout::{Course, Rollout};
 pub use schedule::{Entry, Schedule, ScheduleError};
-pub use simulation::{
-    AgentSnapshot, Execution, LastSeen, Observer, PROGRESS_EVERY, Phase, Progress, RecorderId, ResumeError,
-    RunReport, RunStatus, Scene, Simulation, SimulationSnapshot, StopCondition, Test, Who,
-};
+pub use simulation::Simulation;
 pub use target::{Path, Target};
 
 /// The example of the README, compiled and run.

@@ -6,7 +6,9 @@ use crate::problem::Problem;
 use crate::rollout::aimed;
 use quad_ndi::Reference;
 use sifre::quadrotor::{QuadrotorError, Setup, Start};
-use sifre::{Ets, EtsSetup, Facing, Guidance, Member, Moment, Quadrotor, Simulation, SimulationError, Tilt};
+use sifre::{
+    Engine, EtsSetup, Facing, GimballedEts, Guidance, Member, ModelQuadrotor, Moment, SimulationError, Tilt,
+};
 
 /// Name of the vehicle in the engine.
 pub const QUADROTOR: &str = "quadrotor";
@@ -55,7 +57,7 @@ impl Problem {
     ///
     /// # Errors
     /// As [`Problem::evaluate`]; what the engine refuses.
-    pub fn simulation(&self, x: &[f64]) -> Result<Simulation, EngineError> {
+    pub fn simulation(&self, x: &[f64]) -> Result<Engine, EngineError> {
         let path = self.path_of(x)?;
         let mission = self.mission();
         let pilot = self.fleet.pilot();
@@ -66,13 +68,13 @@ impl Problem {
             position_m: flight.body.position.into(),
             yaw_rad: flight.body.attitude.euler_angles().yaw,
         };
-        let mut quadrotor = Quadrotor::new(Setup { start, ..setup })?;
+        let mut quadrotor = ModelQuadrotor::new(Setup { start, ..setup })?;
         quadrotor.put_in_flight(&flight);
         let ets = self.fleet.ets();
         let seen = quadrotor.flight();
         let receiver = ets.receiver.on(&seen.position, &seen.rotation.matrix);
         let gimbal = aimed(ets, &receiver.centre).gimbal;
-        let station = Ets::new(EtsSetup {
+        let station = GimballedEts::new(EtsSetup {
             name: STATION.to_owned(),
             target: QUADROTOR.to_owned(),
             station: mission.station.clone(),
@@ -80,7 +82,7 @@ impl Problem {
             tilt_rad: gimbal.tilt,
             seed: 0,
         });
-        Ok(Simulation::new(vec![
+        Ok(Engine::new(vec![
             Member::new(quadrotor, mission.step),
             Member::new(station, mission.station_step),
         ])?)

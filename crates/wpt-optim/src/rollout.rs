@@ -6,7 +6,7 @@
 //! to (k+1) h    x_{k+1} = RK4(x_k, u_k), commands held
 //! ```
 //!
-//! The operations of [`sifre::Quadrotor`], [`sifre::Ets`] and [`sifre::Facing`] in their order, so that engine and rollout agree to the last
+//! The operations of [`sifre::ModelQuadrotor`], [`sifre::GimballedEts`] and [`sifre::Facing`] in their order, so that engine and rollout agree to the last
 //! bit on `f64`. No heap, no branch on a number: each lane of a SIMD scalar is a flight of its own.
 //!
 //! A flight fails when its position is beyond [`LOST_M`] or no number: from that instant on, each costs

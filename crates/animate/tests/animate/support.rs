@@ -7,7 +7,9 @@ use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{AnyController, C3, Reference, Settings};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelChoice, Script, Setup, Start};
-use sifre::{Ets, EtsSetup, Facing, Member, Quadrotor, Recording, Schedule, Simulation, Target, steps};
+use sifre::{
+    Engine, EtsSetup, Facing, GimballedEts, Member, ModelQuadrotor, Recording, Schedule, Target, steps,
+};
 use std::sync::Arc;
 
 /// Duration of the flight, s.
@@ -56,9 +58,9 @@ pub(crate) fn flight() -> Recording {
         pan_rad: -0.7,
         ..EtsSetup::nominal("station", "alpha")
     };
-    let mut simulation = Simulation::new(vec![
-        Member::new(Quadrotor::new(alpha).unwrap(), steps::QUADROTOR.step),
-        Member::new(Ets::new(ets), steps::ETS.step),
+    let mut simulation = Engine::new(vec![
+        Member::new(ModelQuadrotor::new(alpha).unwrap(), steps::QUADROTOR.step),
+        Member::new(GimballedEts::new(ets), steps::ETS.step),
         Member::new(Target::fixed(NASTY, MARK_M.into()), steps::TARGET.step),
     ])
     .unwrap();

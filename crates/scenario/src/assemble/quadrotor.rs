@@ -6,7 +6,7 @@ use crate::file::{LevelChange, QuadrotorFile, Scenario, TurbulenceFile};
 use crate::library::{Files, vehicle};
 use quad_dynamics::{CommandLimits, Level, Phenomenon, PhenomenonSet};
 use sifre::quadrotor::{Gusts, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
-use sifre::{Facing, Member, Quadrotor, Schedule, ScheduleError};
+use sifre::{Facing, Member, ModelQuadrotor, Schedule, ScheduleError};
 use std::sync::Arc;
 
 /// Adds a quadrotor to what is built.
@@ -50,7 +50,7 @@ pub(super) fn add(
     };
     built
         .members
-        .push(Member::new(Quadrotor::new(setup)?, file.step_s));
+        .push(Member::new(ModelQuadrotor::new(setup)?, file.step_s));
     built.agents.push(AgentInfo {
         name: file.name.clone(),
         kind: AgentKind::Quadrotor {

@@ -6,7 +6,7 @@ use crate::file::{EtsFile, PathFile, TargetFile};
 use crate::library::{Files, station, station_error};
 use ets::GimbalAxis;
 use quad_ndi::{Trajectory, Waypoint};
-use sifre::{Ets, EtsSetup, Member, Path, Target};
+use sifre::{EtsSetup, GimballedEts, Member, Path, Target};
 
 /// Adds a station to what is built.
 pub(super) fn add(
@@ -44,7 +44,9 @@ pub(super) fn add(
         tilt_rad: file.tilt_deg.to_radians(),
         seed,
     };
-    built.members.push(Member::new(Ets::new(setup), file.step_s));
+    built
+        .members
+        .push(Member::new(GimballedEts::new(setup), file.step_s));
     built.agents.push(AgentInfo {
         name: file.name.clone(),
         kind: AgentKind::Ets {

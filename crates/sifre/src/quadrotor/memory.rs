@@ -2,7 +2,7 @@
 
 use super::estimation::{Estimating, EstimatingMemory};
 use super::gusts::MEMORY;
-use super::{Quadrotor, model};
+use super::{ModelQuadrotor, model};
 use crate::agent::MemoryError;
 use crate::exact::{Exact, exact, plain};
 use nalgebra::Vector3;
@@ -35,7 +35,7 @@ pub(super) struct Restored {
     pub(super) estimating: Option<Box<Estimating>>,
 }
 
-impl Quadrotor {
+impl ModelQuadrotor {
     /// All it needs to go on.
     pub(super) fn memory(&self) -> Memory {
         let mut state = vec![0.0; self.quadrotor.state_len()];

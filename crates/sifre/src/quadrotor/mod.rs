@@ -21,6 +21,7 @@ mod initial_error;
 mod memory;
 mod pilot;
 mod record;
+mod recorded;
 mod rule;
 mod setup;
 
@@ -28,6 +29,7 @@ pub use air::{AirError, Gusts, ProcessNoiseSource, STRONGEST_WIND_M_S, Turbulenc
 pub use estimation::{EstimateUse, Estimation, EstimationSetupError, FilterKind};
 pub use initial_error::{InitialError, InitialErrorFault, VectorError};
 pub use pilot::{OpenLoop, Pilot};
+pub use recorded::{Pose, RecordedFlightError, RecordedQuadrotor};
 pub use rule::{LevelRule, RuleError};
 pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};
 
@@ -36,6 +38,7 @@ use crate::black_box::Channel;
 use crate::error::BindError;
 use crate::event::AgentEvent;
 use crate::exact::plain;
+use crate::speed::Hook;
 use estimation::Estimating;
 use gusts::{Air, Met};
 use hover::{hover_draw, model, set_moving};
@@ -46,9 +49,18 @@ use quad_math::FixedStep;
 use quad_ndi::{Reference, check_pairing};
 use rule::Side;
 
+/// A quadrotor: an agent that flies, whatever moves it.
+pub trait Quadrotor: Agent {
+    /// The flight at its latest instant.
+    fn flight(&self) -> Flight<f64>;
+
+    /// The level of the model that moves it; `None` if none does, as with a recorded flight.
+    fn model_level(&self) -> Option<Level>;
+}
+
 /// A quadrotor at any level, under any pilot, with any guidance.
 #[derive(Debug)]
-pub struct Quadrotor {
+pub struct ModelQuadrotor {
     setup: Setup,
     quadrotor: AnyQuadrotor<f64>,
     reference: Reference<f64>,
@@ -74,7 +86,7 @@ pub struct Quadrotor {
     is_still: bool,
 }
 
-impl Quadrotor {
+impl ModelQuadrotor {
     /// A quadrotor in hover, ready to fly.
     ///
     /// # Errors
@@ -301,7 +313,17 @@ impl Quadrotor {
     }
 }
 
-impl Agent for Quadrotor {
+impl Quadrotor for ModelQuadrotor {
+    fn flight(&self) -> Flight<f64> {
+        self.quadrotor.flight()
+    }
+
+    fn model_level(&self) -> Option<Level> {
+        Some(self.quadrotor.level())
+    }
+}
+
+impl Agent for ModelQuadrotor {
     fn name(&self) -> &str {
         &self.setup.name
     }
@@ -362,7 +384,7 @@ impl Agent for Quadrotor {
         self.draw_charge(now);
     }
 
-    fn decide_and_advance(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
+    fn decide_and_advance(&mut self, now: &Moment<'_>, hook: Hook) -> Option<AgentEvent> {
         if !self.is_plain {
             let event = self.decide(now);
             self.advance(now);
@@ -371,8 +393,8 @@ impl Agent for Quadrotor {
         let event = self.follow_script(now);
         self.input.wind = self.met(now).velocity;
         let Setup { guidance, pilot, .. } = &mut self.setup;
-        let reference = guidance.show(now, &mut self.reference);
-        self.input.commands = pilot.fly(&mut self.quadrotor, reference, &self.input.wind, now);
+        let reference = guidance.show(now, &mut self.reference, hook);
+        self.input.commands = pilot.fly(&mut self.quadrotor, reference, &self.input.wind, now, hook);
         self.draw_charge(now);
         event
     }

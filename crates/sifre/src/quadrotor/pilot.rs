@@ -2,6 +2,7 @@
 
 use crate::agent::{MemoryError, Moment};
 use crate::schedule::Schedule;
+use crate::speed::Hook;
 use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, Flight, Input, Level};
 use quad_math::FixedStep;
@@ -23,13 +24,15 @@ pub trait Pilot: Debug + Send {
 
     /// Commands the rotors and flies the quadrotor one RK4 step in this wind, m/s in W, in one go; gives the commands.
     ///
-    /// The same bit for bit as the two one after the other, which it is unless a pilot has a faster way.
+    /// The same bit for bit as the two one after the other.
+    #[doc(hidden)]
     fn fly(
         &mut self,
         quadrotor: &mut AnyQuadrotor<f64>,
         reference: &Reference<f64>,
         wind: &Vector3<f64>,
         now: &Moment<'_>,
+        _: Hook,
     ) -> [f64; 4] {
         let commands = self.commands(quadrotor, reference, now);
         quadrotor.step(FixedStep::Rk4, &Input::in_wind(commands, *wind), now.step_s);
@@ -69,6 +72,7 @@ impl Pilot for AnyController<f64> {
         reference: &Reference<f64>,
         wind: &Vector3<f64>,
         now: &Moment<'_>,
+        _: Hook,
     ) -> [f64; 4] {
         AnyController::fly(self, quadrotor, reference, wind, now.step_s)
     }

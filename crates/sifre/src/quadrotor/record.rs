@@ -1,6 +1,6 @@
 //! What a quadrotor records, the same at every level.
 
-use super::Quadrotor;
+use super::ModelQuadrotor;
 use crate::black_box::{Channel, Frame, Role};
 use nalgebra::Vector3;
 
@@ -80,7 +80,7 @@ fn estimates() -> Vec<Channel> {
 }
 
 /// One number per channel.
-pub(super) fn write(of: &Quadrotor, row: &mut [f64]) {
+pub(super) fn write(of: &ModelQuadrotor, row: &mut [f64]) {
     let (flight, flat) = (of.quadrotor.flight(), &of.reference.flat);
     let snapshot = of.quadrotor.snapshot(&of.input);
     let mut rest = row;

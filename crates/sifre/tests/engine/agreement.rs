@@ -8,7 +8,7 @@ use quad_ndi::{
 };
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::Setup;
-use sifre::{Member, Quadrotor, Simulation};
+use sifre::{Engine, Member, ModelQuadrotor};
 use std::num::NonZeroU64;
 
 #[test]
@@ -21,8 +21,8 @@ fn agree_with_the_plain_loop_at_every_level() {
                 continue;
             }
             let setup = Setup::new("alpha", &vehicle, level, controller.clone(), to);
-            let member = Member::new(Quadrotor::new(setup).unwrap(), ms(1.0));
-            let mut simulation = Simulation::new(vec![member]).unwrap();
+            let member = Member::new(ModelQuadrotor::new(setup).unwrap(), ms(1.0));
+            let mut simulation = Engine::new(vec![member]).unwrap();
             let id = simulation.attach(ms(5.0), MemoryBox::with_room_for(101)).unwrap();
             assert!(simulation.run(0.5, &mut ()).unwrap().status.is_completed());
             let recording = simulation.detach::<MemoryBox>(id).unwrap().unwrap().recording;
@@ -64,8 +64,8 @@ fn agree_with_the_pure_step() {
     let vehicle = vehicle();
     let to = Reference::hold([0.5, -0.3, -1.0].into(), 0.4);
     let setup = Setup::new("alpha", &vehicle, Level::Three, c3(&vehicle), to);
-    let member = Member::new(Quadrotor::new(setup).unwrap(), ms(1.0));
-    let mut simulation = Simulation::new(vec![member]).unwrap();
+    let member = Member::new(ModelQuadrotor::new(setup).unwrap(), ms(1.0));
+    let mut simulation = Engine::new(vec![member]).unwrap();
     simulation.run(2.0, &mut ()).unwrap();
 
     let model = Level3::<f64>::build(&vehicle, &Level::Three.phenomena()).unwrap();

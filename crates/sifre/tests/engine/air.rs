@@ -6,7 +6,7 @@ use quad_ndi::Reference;
 use sifre::quadrotor::{
     AirError, Gusts, LevelChoice, ProcessNoiseSource, QuadrotorError, Script, Setup, Start, Turbulence, Wind,
 };
-use sifre::{Member, Quadrotor, Schedule, Simulation};
+use sifre::{Engine, Member, ModelQuadrotor, Schedule};
 
 const HEIGHT_M: f64 = 5.0;
 
@@ -30,13 +30,13 @@ pub(crate) fn setup(choice: LevelChoice, script: Script) -> Setup {
     }
 }
 
-fn flying(choice: impl Into<LevelChoice>, script: Script) -> Simulation {
-    let quadrotor = Quadrotor::new(setup(choice.into(), script)).unwrap();
-    Simulation::new(vec![Member::new(quadrotor, ms(2.0))]).unwrap()
+fn flying(choice: impl Into<LevelChoice>, script: Script) -> Engine {
+    let quadrotor = ModelQuadrotor::new(setup(choice.into(), script)).unwrap();
+    Engine::new(vec![Member::new(quadrotor, ms(2.0))]).unwrap()
 }
 
 fn refused(choice: impl Into<LevelChoice>, script: Script) -> QuadrotorError {
-    Quadrotor::new(setup(choice.into(), script)).unwrap_err()
+    ModelQuadrotor::new(setup(choice.into(), script)).unwrap_err()
 }
 
 pub(crate) fn turbulent(seed: u64) -> Script {
@@ -168,7 +168,7 @@ fn exact_gusts_lie_along_and_across_the_wind() {
 /// The same seed is the same flight; another seed is another. Saved and resumed it goes on bit for bit.
 #[test]
 fn exact_noise_is_seeded_and_survives_a_snapshot() {
-    let end = |simulation: &mut Simulation| {
+    let end = |simulation: &mut Engine| {
         simulation.run(3.0, &mut ()).unwrap();
         serde_json::to_string(&simulation.save().unwrap()).unwrap()
     };
@@ -179,8 +179,8 @@ fn exact_noise_is_seeded_and_survives_a_snapshot() {
     let mut first = flying(Level::Five, noisy(1));
     first.run(1.234, &mut ()).unwrap();
     let saved = first.save().unwrap();
-    let quadrotor = Quadrotor::new(setup(Level::Five.into(), noisy(1))).unwrap();
-    let mut resumed = Simulation::resume(vec![Member::new(quadrotor, ms(2.0))], &saved).unwrap();
+    let quadrotor = ModelQuadrotor::new(setup(Level::Five.into(), noisy(1))).unwrap();
+    let mut resumed = Engine::resume(vec![Member::new(quadrotor, ms(2.0))], &saved).unwrap();
     assert_eq!(whole, end(&mut resumed));
 }
 
@@ -197,7 +197,7 @@ fn exact_an_unmet_prerequisite_names_both() {
         level: Level::Three,
         phenomena: Some([Phenomenon::Drag, Phenomenon::Turbulence].into_iter().collect()),
     };
-    assert!(Quadrotor::new(setup(choice.clone(), turbulent(1))).is_ok());
+    assert!(ModelQuadrotor::new(setup(choice.clone(), turbulent(1))).is_ok());
     let error = refused(choice, Script::default());
     assert!(matches!(
         error,
@@ -307,7 +307,7 @@ fn exact_a_start_below_the_ground_is_refused() {
         yaw_rad: 0.0,
     };
     let below = |choice: LevelChoice| {
-        Quadrotor::new(Setup {
+        ModelQuadrotor::new(Setup {
             start,
             ..setup(choice, Script::default())
         })

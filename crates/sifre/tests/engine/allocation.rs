@@ -8,12 +8,13 @@ use quad_ndi::{AnyController, C1, Reference, Settings};
 use sifre::black_box::CsvBox;
 use sifre::quadrotor::{Gusts, ProcessNoiseSource, Script, Setup, Turbulence, Wind};
 use sifre::{
-    Ets, EtsSetup, Facing, Follow, Member, Quadrotor, Schedule, Simulation, StepSize, StopCondition, Target,
+    Engine, EtsSetup, Facing, Follow, GimballedEts, Member, ModelQuadrotor, Schedule, StepSize,
+    StopCondition, Target,
 };
 use std::sync::Arc;
 
 /// A quadrotor at every level in wind, gusts and noise, each facing the next, a follower, a target and a station; steps of 1, 2 and 3 ms.
-fn simulation() -> Simulation {
+fn simulation() -> Engine {
     let vehicle = Arc::new(Vehicle::qball_x4());
     let c1 = || AnyController::C1(C1::new(&vehicle, &Settings::default()).unwrap().into());
     let step = |ns| StepSize::from_ns(ns).unwrap();
@@ -46,16 +47,16 @@ fn simulation() -> Simulation {
             script,
             ..Setup::new(level.to_string(), &vehicle, level, c1(), hold)
         };
-        members.push(Member::new(Quadrotor::new(setup).unwrap(), step(1_000_000)));
+        members.push(Member::new(ModelQuadrotor::new(setup).unwrap(), step(1_000_000)));
     }
     let follow = Follow::agent("target", [-1.0, 0.0, 0.0], 0.0);
     let setup = Setup::new("follower", &vehicle, Level::Three, c1(), follow);
-    members.push(Member::new(Quadrotor::new(setup).unwrap(), step(2_000_000)));
+    members.push(Member::new(ModelQuadrotor::new(setup).unwrap(), step(2_000_000)));
     let mut setup = EtsSetup::nominal("station", "follower");
     setup.station.pedestal.position = [-4.0, 0.0, 0.0];
-    let station = Ets::new(setup);
+    let station = GimballedEts::new(setup);
     members.push(Member::new(station, step(2_000_000)));
-    let mut simulation = Simulation::new(members).unwrap();
+    let mut simulation = Engine::new(members).unwrap();
     let fast = |scene: &sifre::Scene<'_>| scene.of("follower").is_some_and(|f| f.velocity.norm() > 100.0);
     simulation.stop_when(StopCondition::when("fast", fast)).unwrap();
     simulation

@@ -8,7 +8,7 @@ use quad_ndi::Reference;
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{QuadrotorError, Script, Setup, Start};
 use sifre::{
-    BindError, Follow, GridError, Member, Quadrotor, ResumeError, Schedule, Simulation, SimulationError,
+    BindError, Engine, Follow, GridError, Member, ModelQuadrotor, ResumeError, Schedule, SimulationError,
     SimulationSnapshot, SnapshotError, StepSize, StopCondition, Target, Who,
 };
 use std::sync::Arc;
@@ -29,32 +29,32 @@ fn setup(name: &str) -> Setup {
 }
 
 fn quadrotor(name: &str) -> Member {
-    Member::new(Quadrotor::new(setup(name)).unwrap(), ms(1.0))
+    Member::new(ModelQuadrotor::new(setup(name)).unwrap(), ms(1.0))
 }
 
 fn follower(name: &str, leader: &str) -> Member {
     let vehicle = vehicle();
     let follow = Follow::agent(leader, [0.0; 3], 0.0);
     let setup = Setup::new(name, &vehicle, Level::Three, c3(&vehicle), follow);
-    Member::new(Quadrotor::new(setup).unwrap(), ms(1.0))
+    Member::new(ModelQuadrotor::new(setup).unwrap(), ms(1.0))
 }
 
 #[test]
 fn exact_an_empty_simulation() {
-    let error = Simulation::new(Vec::new()).unwrap_err();
+    let error = Engine::new(Vec::new()).unwrap_err();
     assert!(matches!(error, SimulationError::Empty));
     assert!(error.to_string().contains("add a quadrotor"));
 }
 
 #[test]
 fn exact_duplicate_names() {
-    let error = Simulation::new(vec![target("a"), target("b"), quadrotor("a")]).unwrap_err();
+    let error = Engine::new(vec![target("a"), target("b"), quadrotor("a")]).unwrap_err();
     assert!(matches!(&error, SimulationError::DuplicateName { name } if name == "a"));
 }
 
 #[test]
 fn exact_unknown_agents() {
-    let error = Simulation::new(vec![follower("a", "c"), target("b")]).unwrap_err();
+    let error = Engine::new(vec![follower("a", "c"), target("b")]).unwrap_err();
     assert!(
         matches!(&error, SimulationError::Bind(BindError::UnknownAgent(unknown)) if unknown.wanted == "c" && unknown.known == ["b"])
     );
@@ -62,9 +62,9 @@ fn exact_unknown_agents() {
         error.to_string(),
         "agent \"a\" looks at \"c\", which is not in the simulation: add the agent or name one of b"
     );
-    let error = Simulation::new(vec![follower("a", "a")]).unwrap_err();
+    let error = Engine::new(vec![follower("a", "a")]).unwrap_err();
     assert!(error.to_string().contains("is itself"), "{error}");
-    let mut simulation = Simulation::new(vec![target("a")]).unwrap();
+    let mut simulation = Engine::new(vec![target("a")]).unwrap();
     let who = Who::Agent("b".into());
     let error = simulation
         .stop_when(StopCondition::Below { who, height_m: 0.0 })
@@ -78,7 +78,7 @@ fn exact_times() {
         StepSize::from_seconds(0.0),
         Err(GridError::BadStep { step_s: 0.0 })
     );
-    let mut simulation = Simulation::new(vec![target("a")]).unwrap();
+    let mut simulation = Engine::new(vec![target("a")]).unwrap();
     simulation.run(0.5, &mut ()).unwrap();
     let error = simulation.run(0.25, &mut ()).unwrap_err();
     assert!(matches!(
@@ -102,37 +102,37 @@ fn exact_times() {
 fn exact_quadrotors() {
     let vehicle = vehicle();
     let hold = Reference::hold([0.0; 3].into(), 0.0);
-    let low = Quadrotor::new(Setup::new("a", &vehicle, Level::Two, c3(&vehicle), hold)).unwrap_err();
+    let low = ModelQuadrotor::new(Setup::new("a", &vehicle, Level::Two, c3(&vehicle), hold)).unwrap_err();
     assert!(matches!(&low, QuadrotorError::Controller { name, .. } if name == "a"));
 
     let start = Start {
         position_m: [0.0, f64::NAN, 0.0],
         yaw_rad: 0.0,
     };
-    let error = Quadrotor::new(Setup { start, ..setup("a") }).unwrap_err();
+    let error = ModelQuadrotor::new(Setup { start, ..setup("a") }).unwrap_err();
     assert!(matches!(error, QuadrotorError::BadStart { .. }));
 
     let script = Script {
         wind_m_s: Schedule::new([(0.0, [f64::INFINITY, 0.0, 0.0])]).unwrap(),
         ..Script::default()
     };
-    let error = Quadrotor::new(Setup { script, ..setup("a") }).unwrap_err();
+    let error = ModelQuadrotor::new(Setup { script, ..setup("a") }).unwrap_err();
     assert!(matches!(error, QuadrotorError::Script { .. }));
 
     let bare = Arc::new(Vehicle {
         rotor_dynamics: None,
         ..Vehicle::qball_x4()
     });
-    let error = Quadrotor::new(Setup::new("a", &bare, Level::Four, c1(&bare), hold)).unwrap_err();
+    let error = ModelQuadrotor::new(Setup::new("a", &bare, Level::Four, c1(&bare), hold)).unwrap_err();
     assert!(matches!(error, QuadrotorError::Build { .. }));
 }
 
 #[test]
 fn exact_snapshots_of_something_else() {
-    let mut simulation = Simulation::new(vec![quadrotor("a"), target("b")]).unwrap();
+    let mut simulation = Engine::new(vec![quadrotor("a"), target("b")]).unwrap();
     simulation.run(0.01, &mut ()).unwrap();
     let saved = simulation.save().unwrap();
-    let resume = |members, snapshot: &SimulationSnapshot| match Simulation::resume(members, snapshot) {
+    let resume = |members, snapshot: &SimulationSnapshot| match Engine::resume(members, snapshot) {
         Err(ResumeError::Snapshot(error)) => error,
         other => panic!("{other:?}"),
     };
@@ -155,7 +155,7 @@ fn exact_snapshots_of_something_else() {
     let vehicle = vehicle();
     let hold = Reference::hold([0.0; 3].into(), 0.0);
     let other = Setup::new("a", &vehicle, Level::Three, c1(&vehicle), hold);
-    let other = Member::new(Quadrotor::new(other).unwrap(), ms(1.0));
+    let other = Member::new(ModelQuadrotor::new(other).unwrap(), ms(1.0));
     let error = resume(vec![other, target("b")], &saved);
     assert!(
         error
@@ -199,7 +199,7 @@ fn exact_snapshots_of_something_else() {
 #[test]
 fn exact_a_black_box_attached_between_instants() {
     let slow = Member::new(Target::fixed("slow", [0.0; 3].into()), ms(10.0));
-    let mut simulation = Simulation::new(vec![target("fast"), slow]).unwrap();
+    let mut simulation = Engine::new(vec![target("fast"), slow]).unwrap();
     simulation.run(0.005, &mut ()).unwrap();
     let error = simulation.attach(ms(1.0), MemoryBox::default()).unwrap_err();
     let SimulationError::AttachedMidStep { agent, now_s, due_s } = &error else {
@@ -219,7 +219,7 @@ fn exact_a_run_of_no_time_is_a_run() {
         .new_tree(&mut TestRunner::deterministic())
         .expect("a plan")
         .current();
-    let mut simulation = Simulation::new(members(&plans, &in_order(&plans))).unwrap();
+    let mut simulation = Engine::new(members(&plans, &in_order(&plans))).unwrap();
     let report = simulation.run(0.0, &mut ()).unwrap();
     assert!(report.status.is_completed());
     assert_eq!((report.agent_steps, report.time_s), (0, 0.0));

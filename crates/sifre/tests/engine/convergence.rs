@@ -10,7 +10,7 @@ use quad_dynamics::{AnyQuadrotor, Level, PhenomenonSet};
 use quad_math::FixedStep;
 use quad_ndi::Reference;
 use sifre::quadrotor::{LevelChoice, OpenLoop, Setup, Start};
-use sifre::{Facing, Follow, Member, Quadrotor, Schedule, Simulation};
+use sifre::{Engine, Facing, Follow, Member, ModelQuadrotor, Schedule};
 use std::num::NonZeroU32;
 
 /// The order that three results show, each with steps half as long as the one before.
@@ -40,8 +40,8 @@ fn open_loop(level: Level, uneven: [f64; 4], method: FixedStep, step_ms: f64) ->
         method,
         ..Setup::new("alpha", &vehicle, smooth(level), pilot, hold)
     };
-    let member = Member::new(Quadrotor::new(setup).unwrap(), ms(step_ms));
-    let mut simulation = Simulation::new(vec![member]).unwrap();
+    let member = Member::new(ModelQuadrotor::new(setup).unwrap(), ms(step_ms));
+    let mut simulation = Engine::new(vec![member]).unwrap();
     assert!(simulation.run(0.4, &mut ()).unwrap().status.is_completed());
     position(&simulation, "alpha")
 }
@@ -64,9 +64,9 @@ fn pair(factor: f64, substeps: u32) -> [Vector3<f64>; 2] {
         },
         ..Setup::new("follower", &vehicle, smooth(Level::Four), c3(&vehicle), follow)
     };
-    let mut simulation = Simulation::new(vec![
-        Member::new(Quadrotor::new(leader).unwrap(), ms(2.0 * factor)),
-        Member::new(Quadrotor::new(follower).unwrap(), ms(5.0 * factor)),
+    let mut simulation = Engine::new(vec![
+        Member::new(ModelQuadrotor::new(leader).unwrap(), ms(2.0 * factor)),
+        Member::new(ModelQuadrotor::new(follower).unwrap(), ms(5.0 * factor)),
     ])
     .unwrap();
     assert!(simulation.run(0.6, &mut ()).unwrap().status.is_completed());

@@ -5,7 +5,7 @@ use quad_dynamics::{Level, Resolution, Vehicle};
 use quad_ndi::{AnyController, C1, LoopSettings, Settings, TiltLaw, Waypoint};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelRule, QuadrotorError, Script, Setup, Start};
-use sifre::{AgentEvent, Member, Mission, Quadrotor, Recording, Schedule, Simulation, Target};
+use sifre::{AgentEvent, Engine, Member, Mission, ModelQuadrotor, Recording, Schedule, Target};
 
 const END_S: f64 = 40.0;
 const FINE_WITHIN_M: f64 = 3.0;
@@ -67,13 +67,13 @@ fn members(rule: Option<LevelRule>) -> Vec<Member> {
     };
     let station = Target::fixed("station", [0.0, 0.0, -2.0].into());
     vec![
-        Member::new(Quadrotor::new(setup).unwrap(), ms(2.0)),
+        Member::new(ModelQuadrotor::new(setup).unwrap(), ms(2.0)),
         Member::new(station, ms(10.0)),
     ]
 }
 
-fn flown(rule: Option<LevelRule>) -> (Simulation, Recording) {
-    let mut simulation = Simulation::new(members(rule)).unwrap();
+fn flown(rule: Option<LevelRule>) -> (Engine, Recording) {
+    let mut simulation = Engine::new(members(rule)).unwrap();
     let id = simulation.attach(ms(2.0), MemoryBox::default()).unwrap();
     assert!(simulation.run(END_S, &mut ()).unwrap().status.is_completed());
     let recording = simulation.detach::<MemoryBox>(id).unwrap().unwrap().recording;
@@ -164,13 +164,13 @@ fn agree_with_level_5_at_a_fraction_of_its_cost() {
 #[test]
 fn exact_a_rule_survives_a_snapshot() {
     let rule = || Some(rule(Level::Five, Level::One));
-    let end = |simulation: &Simulation| serde_json::to_string(&simulation.save().unwrap()).unwrap();
-    let mut whole = Simulation::new(members(rule())).unwrap();
+    let end = |simulation: &Engine| serde_json::to_string(&simulation.save().unwrap()).unwrap();
+    let mut whole = Engine::new(members(rule())).unwrap();
     whole.run(END_S, &mut ()).unwrap();
     for pause in [5.0, 20.0, 35.0] {
-        let mut first = Simulation::new(members(rule())).unwrap();
+        let mut first = Engine::new(members(rule())).unwrap();
         first.run(pause, &mut ()).unwrap();
-        let mut second = Simulation::resume(members(rule()), &first.save().unwrap()).unwrap();
+        let mut second = Engine::resume(members(rule()), &first.save().unwrap()).unwrap();
         second.run(END_S, &mut ()).unwrap();
         assert_eq!(end(&whole), end(&second), "{pause} s");
     }
@@ -180,7 +180,7 @@ fn exact_a_rule_survives_a_snapshot() {
 fn exact_wrong_rules_are_refused() {
     let vehicle = vehicle();
     let with = |script| {
-        Quadrotor::new(Setup {
+        ModelQuadrotor::new(Setup {
             script,
             ..Setup::new("a", &vehicle, Level::Five, pilot(&vehicle), mission())
         })
@@ -210,6 +210,6 @@ fn exact_wrong_rules_are_refused() {
         ..Script::default()
     })
     .unwrap();
-    let error = Simulation::new(vec![Member::new(alone, ms(2.0))]).unwrap_err();
+    let error = Engine::new(vec![Member::new(alone, ms(2.0))]).unwrap_err();
     assert!(error.to_string().contains("station"), "{error}");
 }

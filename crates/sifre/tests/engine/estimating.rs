@@ -8,7 +8,7 @@ use quad_estimation::{InitialUncertainty, ProcessNoise};
 use quad_ndi::Reference;
 use sifre::quadrotor::{EstimateUse, Estimation, FilterKind, QuadrotorError, Setup, Start, Wind};
 use sifre::{
-    AgentEvent, Member, Quadrotor, Recording, ResumeError, RunStatus, Simulation, SimulationSnapshot,
+    AgentEvent, Engine, Member, ModelQuadrotor, Recording, ResumeError, RunStatus, SimulationSnapshot,
     SnapshotError,
 };
 
@@ -33,9 +33,9 @@ fn setup(level: Level, estimation: Option<Estimation>) -> Setup {
     setup
 }
 
-fn simulation(level: Level, step_ms: f64, estimation: Option<Estimation>) -> Simulation {
-    let quadrotor = Quadrotor::new(setup(level, estimation)).expect("a valid setup");
-    Simulation::new(vec![Member::new(quadrotor, ms(step_ms))]).expect("one agent")
+fn simulation(level: Level, step_ms: f64, estimation: Option<Estimation>) -> Engine {
+    let quadrotor = ModelQuadrotor::new(setup(level, estimation)).expect("a valid setup");
+    Engine::new(vec![Member::new(quadrotor, ms(step_ms))]).expect("one agent")
 }
 
 fn estimation() -> impl Strategy<Value = Estimation> {
@@ -82,10 +82,10 @@ proptest! {
         let (_, before) = run_recorded(&mut first, pause_ns as f64 / 1e9);
         let snapshot = through_json(&first.save().expect("states are JSON"));
         let member = Member::new(
-            Quadrotor::new(setup(Level::Four, Some(estimation.clone()))).expect("as before"),
+            ModelQuadrotor::new(setup(Level::Four, Some(estimation.clone()))).expect("as before"),
             ms(4.0),
         );
-        let mut second = Simulation::resume(vec![member], &snapshot).expect("the same agent");
+        let mut second = Engine::resume(vec![member], &snapshot).expect("the same agent");
         let (_, after) = run_recorded(&mut second, 0.3);
         prop_assert_eq!(sorted_snapshot(&second), sorted_snapshot(&whole));
         let bits = |recording: &Recording| -> Vec<Vec<u64>> {
@@ -163,12 +163,12 @@ fn exact_with_perfect_sensors_the_loop_is_that_of_the_truth() {
 #[test]
 fn exact_a_start_in_motion_is_known() {
     let estimation = Estimation::new(Level::Three, Quality::Good.suite(), 1);
-    let mut quadrotor = Quadrotor::new(setup(Level::Three, Some(estimation))).expect("a valid setup");
+    let mut quadrotor = ModelQuadrotor::new(setup(Level::Three, Some(estimation))).expect("a valid setup");
     let mut flight = quadrotor.model().snapshot(quadrotor.input());
     flight.body.position += nalgebra::Vector3::new(2.0, 0.0, 0.0);
     flight.body.velocity.x = 1.0;
     quadrotor.put_in_flight(&flight);
-    let mut simulation = Simulation::new(vec![Member::new(quadrotor, ms(2.0))]).expect("one agent");
+    let mut simulation = Engine::new(vec![Member::new(quadrotor, ms(2.0))]).expect("one agent");
     let (_, flown) = run_recorded(&mut simulation, 0.01);
     let first = |name: &str| flown.column(name).expect("a channel").next().expect("a row");
     // One fix of 1 cm pulls by at most its own error; velocities are not measured.
@@ -204,7 +204,7 @@ fn exact_a_failing_filter_ends_the_run() {
 #[test]
 fn exact_wrong_estimators_are_refused() {
     let refuse = |estimation| {
-        let error = Quadrotor::new(setup(Level::Five, Some(estimation))).expect_err("a bad estimator");
+        let error = ModelQuadrotor::new(setup(Level::Five, Some(estimation))).expect_err("a bad estimator");
         assert!(matches!(error, QuadrotorError::Estimation { .. }), "{error}");
         error.to_string()
     };
@@ -220,7 +220,7 @@ fn exact_wrong_estimators_are_refused() {
     };
     let error = refuse(low);
     assert!(error.contains("in the loop"), "{error}");
-    assert!(Quadrotor::new(setup(Level::Five, Some(beside))).is_ok());
+    assert!(ModelQuadrotor::new(setup(Level::Five, Some(beside))).is_ok());
     let mut nan = good();
     nan.noise.rates = f64::NAN;
     assert!(refuse(nan).contains("NaN"));
@@ -240,8 +240,8 @@ fn prop_c1_flies_by_a_filter_on_level_1() {
             Some(Estimation::new(Level::One, Quality::Good.suite(), 2)),
         )
     };
-    let quadrotor = Quadrotor::new(setup).expect("c1 needs no more than level 1");
-    let mut simulation = Simulation::new(vec![Member::new(quadrotor, ms(4.0))]).expect("one agent");
+    let quadrotor = ModelQuadrotor::new(setup).expect("c1 needs no more than level 1");
+    let mut simulation = Engine::new(vec![Member::new(quadrotor, ms(4.0))]).expect("one agent");
     let report = simulation.run(6.0, &mut ()).expect("a later end");
     assert!(report.status.is_completed(), "{}", report.status);
     let flown = simulation.published("alpha").expect("it is there").position;
@@ -270,9 +270,9 @@ fn exact_a_snapshot_of_another_estimator_is_refused() {
         (fewer(), "sensors"),
         (higher(), "covariance"),
     ] {
-        let quadrotor = Quadrotor::new(setup(Level::Five, other)).expect("a valid setup");
-        let error = Simulation::resume(vec![Member::new(quadrotor, ms(4.0))], &snapshot)
-            .expect_err("another estimator");
+        let quadrotor = ModelQuadrotor::new(setup(Level::Five, other)).expect("a valid setup");
+        let error =
+            Engine::resume(vec![Member::new(quadrotor, ms(4.0))], &snapshot).expect_err("another estimator");
         assert!(
             matches!(error, ResumeError::Snapshot(SnapshotError::Memory { .. })),
             "{error}"

@@ -5,7 +5,9 @@ use ets::{Ets as Physics, EtsInput, FrameClock, Mode, Station};
 use nalgebra::{Vector2, Vector3};
 use quad_ndi::{Trajectory, Waypoint};
 use sifre::black_box::MemoryBox;
-use sifre::{AgentEvent, BindError, Ets, EtsSetup, Member, Path, Simulation, SimulationError, Target};
+use sifre::{
+    AgentEvent, BindError, Engine, Ets as _, EtsSetup, GimballedEts, Member, Path, SimulationError, Target,
+};
 
 fn waypoint(time_s: f64, position_m: [f64; 3]) -> Waypoint {
     Waypoint {
@@ -26,16 +28,16 @@ fn crossing(duration_s: f64, distance_m: f64) -> Trajectory {
     Trajectory::through(&points).unwrap()
 }
 
-fn simulation(path: &Trajectory, pan_rad: f64, tilt_rad: f64) -> Simulation {
+fn simulation(path: &Trajectory, pan_rad: f64, tilt_rad: f64) -> Engine {
     let target = Target::new("target", Path::Scripted(path.clone()));
     let setup = EtsSetup {
         pan_rad,
         tilt_rad,
         ..EtsSetup::nominal("station", "target")
     };
-    Simulation::new(vec![
+    Engine::new(vec![
         Member::new(target, ms(1.0)),
-        Member::new(Ets::new(setup), ms(1.0)),
+        Member::new(GimballedEts::new(setup), ms(1.0)),
     ])
     .unwrap()
 }
@@ -75,7 +77,7 @@ fn agree_with_the_pure_step() {
         assert_eq!(physics.command(&decided).pan_rate, pan_command[k]);
         state = physics.step(&clock, n, &state, &input);
     }
-    let agent: &Ets = simulation.agent("station").unwrap();
+    let agent: &GimballedEts = simulation.agent("station").unwrap();
     // At the end it has looked once more, and not turned yet.
     assert_eq!(agent.state().gimbal, state.gimbal);
     assert_eq!(agent.mode(), Mode::Tracking);
@@ -104,7 +106,10 @@ fn exact_events_of_sight() {
         AgentEvent::TargetFound,
     ];
     assert_eq!(events, expected);
-    assert_eq!(fast.agent::<Ets>("station").unwrap().mode(), Mode::Tracking);
+    assert_eq!(
+        fast.agent::<GimballedEts>("station").unwrap().mode(),
+        Mode::Tracking
+    );
 }
 
 /// What others see of it: the moving platform, which points at what it tracks.
@@ -132,9 +137,9 @@ fn exact_its_pose_is_the_platforms() {
 #[test]
 fn exact_a_step_longer_than_a_frame_is_refused() {
     let target = Target::fixed("target", [4.0, 0.0, 0.0].into());
-    let station = Ets::new(EtsSetup::nominal("station", "target"));
+    let station = GimballedEts::new(EtsSetup::nominal("station", "target"));
     let members = vec![Member::new(target, ms(1.0)), Member::new(station, ms(50.0))];
-    let error = Simulation::new(members).unwrap_err();
+    let error = Engine::new(members).unwrap_err();
     assert!(matches!(
         &error,
         SimulationError::Bind(BindError::Step { step_s: 0.05, .. })

@@ -4,7 +4,7 @@ use crate::air::{setup, turbulent};
 use crate::support::{ms, run_recorded, vehicle};
 use quad_dynamics::{Level, Vehicle};
 use sifre::quadrotor::{Gusts, Setup};
-use sifre::{Member, Quadrotor, Recording, Simulation};
+use sifre::{Engine, Member, ModelQuadrotor, Recording};
 use std::sync::Arc;
 
 /// The vehicle, or one whose rates the air does not damp.
@@ -22,8 +22,8 @@ fn turned(gusts: Gusts, seed: u64, vehicle: &Arc<Vehicle>, duration_s: f64) -> R
         vehicle: Arc::clone(vehicle),
         ..setup(Level::Four.into(), script)
     };
-    let member = Member::new(Quadrotor::new(setup).unwrap(), ms(2.0));
-    run_recorded(&mut Simulation::new(vec![member]).unwrap(), duration_s).1
+    let member = Member::new(ModelQuadrotor::new(setup).unwrap(), ms(2.0));
+    run_recorded(&mut Engine::new(vec![member]).unwrap(), duration_s).1
 }
 
 fn column(recording: &Recording, name: &str) -> Vec<f64> {

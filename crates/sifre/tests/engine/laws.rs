@@ -9,7 +9,7 @@ use quad_ndi::Reference;
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::Setup;
 use sifre::{
-    Execution, Guidance, Member, Moment, Progress, Quadrotor, Recording, RunStatus, Simulation,
+    Engine, Execution, Guidance, Member, ModelQuadrotor, Moment, Progress, Recording, RunStatus,
     SimulationSnapshot,
 };
 use std::ops::ControlFlow;
@@ -28,8 +28,8 @@ fn shuffled() -> impl Strategy<Value = (Vec<Plan>, Vec<usize>)> {
     })
 }
 
-fn simulation(plans: &[Plan]) -> Simulation {
-    Simulation::new(members(plans, &in_order(plans))).expect("valid plans")
+fn simulation(plans: &[Plan]) -> Engine {
+    Engine::new(members(plans, &in_order(plans))).expect("valid plans")
 }
 
 /// By way of a file, as one would.
@@ -53,7 +53,7 @@ proptest! {
     fn prop_the_order_of_agents_does_not_matter((plans, order) in shuffled()) {
         let mut given = simulation(&plans);
         let (_, first) = run_recorded(&mut given, END_S);
-        let mut shuffled = Simulation::new(members(&plans, &order)).expect("valid plans");
+        let mut shuffled = Engine::new(members(&plans, &order)).expect("valid plans");
         let (_, second) = run_recorded(&mut shuffled, END_S);
         prop_assert_eq!(first.times_ns(), second.times_ns());
         prop_assert_eq!(sorted_bits(&first), sorted_bits(&second));
@@ -71,7 +71,7 @@ proptest! {
         prop_assert!(report.status.is_completed());
         let snapshot = through_json(&first.save().expect("states are JSON"));
         drop(first);
-        let mut second = Simulation::resume(members(&plans, &in_order(&plans)), &snapshot).expect("the same agents");
+        let mut second = Engine::resume(members(&plans, &in_order(&plans)), &snapshot).expect("the same agents");
         let (_, after) = run_recorded(&mut second, END_S);
         prop_assert_eq!(sorted_snapshot(&second), sorted_snapshot(&whole));
         prop_assert_eq!(bits(&[&before, &after]), bits(&[&uninterrupted]));
@@ -166,9 +166,12 @@ fn exact_many_agents_are_shared_out() {
                 Setup::new(name(i), &vehicle, Level::Two, pilot, hold)
             }
         };
-        Member::new(Quadrotor::new(setup).expect("the nominal vehicle flies"), ms(1.0))
+        Member::new(
+            ModelQuadrotor::new(setup).expect("the nominal vehicle flies"),
+            ms(1.0),
+        )
     };
-    let mut simulation = Simulation::new((0..64).map(member).collect()).expect("names differ");
+    let mut simulation = Engine::new((0..64).map(member).collect()).expect("names differ");
     simulation.execute(Execution::Parallel);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
     let run = || simulation.run(0.002, &mut ()).expect("a later end");

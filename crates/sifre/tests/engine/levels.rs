@@ -7,7 +7,7 @@ use quad_dynamics::{Flight, Level};
 use quad_ndi::Reference;
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelChoice, QuadrotorError, Script, Setup};
-use sifre::{AgentEvent, Event, Member, Quadrotor, Schedule, Simulation};
+use sifre::{AgentEvent, Engine, Event, Member, ModelQuadrotor, Schedule};
 
 /// Largest difference of what can be seen of two flights: m, m/s, 1, rad/s.
 fn approx_eq(a: &Flight<f64>, b: &Flight<f64>) -> f64 {
@@ -24,14 +24,14 @@ fn level() -> impl Strategy<Value = Level> {
     prop::sample::select(Level::ALL.to_vec())
 }
 
-fn flying(level: Level, script: Script) -> Simulation {
+fn flying(level: Level, script: Script) -> Engine {
     let vehicle = vehicle();
     let to = Reference::hold([0.6, -0.4, -1.0].into(), 0.8);
     let setup = Setup {
         script,
         ..Setup::new("alpha", &vehicle, level, c1(&vehicle), to)
     };
-    Simulation::new(vec![Member::new(Quadrotor::new(setup).unwrap(), ms(1.0))]).unwrap()
+    Engine::new(vec![Member::new(ModelQuadrotor::new(setup).unwrap(), ms(1.0))]).unwrap()
 }
 
 proptest! {
@@ -42,7 +42,7 @@ proptest! {
     fn prop_nothing_seen_of_a_flight_jumps(from in level(), to in level(), time_ms in 1..800_u32) {
         let mut simulation = flying(from, Script::default());
         simulation.run(f64::from(time_ms) / 1000.0, &mut ()).unwrap();
-        let alpha: &mut Quadrotor = simulation.agent_mut("alpha").unwrap();
+        let alpha: &mut ModelQuadrotor = simulation.agent_mut("alpha").unwrap();
         let before = alpha.flight();
         let event = alpha.change_level(&to.into()).unwrap();
         prop_assert_eq!(event, AgentEvent::LevelChanged { from, to });
@@ -50,7 +50,7 @@ proptest! {
         let jump = close(&before, &alpha.flight());
         prop_assert!(jump < 1e-13, "{from} to {to}: {jump}");
         prop_assert!(simulation.run(1.0, &mut ()).unwrap().status.is_completed());
-        prop_assert_eq!(simulation.agent::<Quadrotor>("alpha").unwrap().level(), to);
+        prop_assert_eq!(simulation.agent::<ModelQuadrotor>("alpha").unwrap().level(), to);
     }
 }
 
@@ -124,7 +124,7 @@ fn exact_thrusts_go_on_where_there_are_states_for_them() {
         let id = simulation.attach(ms(50.0), MemoryBox::default()).unwrap();
         simulation.run(0.15, &mut ()).unwrap();
         let before = simulation.detach::<MemoryBox>(id).unwrap().unwrap().recording;
-        let alpha: &mut Quadrotor = simulation.agent_mut("alpha").unwrap();
+        let alpha: &mut ModelQuadrotor = simulation.agent_mut("alpha").unwrap();
         alpha.change_level(&to.into()).unwrap();
         let input = *alpha.input();
         let after = alpha.model().snapshot(&input);
@@ -145,7 +145,7 @@ fn exact_a_level_below_the_pilot_is_refused_and_the_flight_goes_on() {
     let vehicle = vehicle();
     let hold = Reference::hold([0.0; 3].into(), 0.0);
     let below = |script| {
-        Quadrotor::new(Setup {
+        ModelQuadrotor::new(Setup {
             script,
             ..Setup::new("alpha", &vehicle, Level::Three, c3(&vehicle), hold)
         })

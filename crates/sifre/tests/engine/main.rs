@@ -13,6 +13,8 @@ mod laws;
 mod levels;
 mod optimising;
 mod recording;
+mod replay;
+mod rollout;
 mod scheduling;
 mod stopping;
 mod support;

@@ -6,7 +6,7 @@ use optim::{Limits, RandomSearch, Variable, minimise};
 use quad_dynamics::Level;
 use quad_ndi::Reference;
 use sifre::quadrotor::Setup;
-use sifre::{Member, Optimiser, Quadrotor, Simulation};
+use sifre::{Engine, Member, ModelQuadrotor, Optimiser};
 
 /// Where to send a quadrotor so that it is at `(1, 2.2)` after 4 s: the simulation's own best is the target itself.
 #[test]
@@ -16,8 +16,8 @@ fn exact_an_optimiser_drives_a_simulation() {
     let fly_to = |values: &[f64]| {
         let to = Reference::hold(Vector3::new(values[0], values[1], 0.0), 0.0);
         let setup = Setup::new("alpha", &vehicle, Level::Three, c3(&vehicle), to);
-        let member = Member::new(Quadrotor::new(setup).unwrap(), ms(2.0));
-        let mut simulation = Simulation::new(vec![member]).unwrap();
+        let member = Member::new(ModelQuadrotor::new(setup).unwrap(), ms(2.0));
+        let mut simulation = Engine::new(vec![member]).unwrap();
         simulation.run(4.0, &mut ()).unwrap();
         (position(&simulation, "alpha") - goal).norm()
     };

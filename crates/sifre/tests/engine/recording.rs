@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use sifre::black_box::{Channel, CsvBox, JsonLinesBox, MemoryBox, Role};
-use sifre::{BlackBox, BlackBoxError, Recording, RunStatus, Simulation};
+use sifre::{BlackBox, BlackBoxError, Engine, Recording, RunStatus};
 use std::io::Write;
 use std::sync::{Arc, Mutex};
 
@@ -37,8 +37,8 @@ fn some_plans() -> Vec<Plan> {
         .current()
 }
 
-fn simulation(plans: &[Plan]) -> Simulation {
-    Simulation::new(members(plans, &in_order(plans))).unwrap()
+fn simulation(plans: &[Plan]) -> Engine {
+    Engine::new(members(plans, &in_order(plans))).unwrap()
 }
 
 proptest! {

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use quad_kinematics::Rotation;
 use sifre::black_box::{Frame, MemoryBox, Role};
 use sifre::{
-    Agent, AgentEvent, AgentId, BindError, Channel, Directory, Member, MemoryError, Moment, Published,
-    Simulation, StepSize,
+    Agent, AgentEvent, AgentId, BindError, Channel, Directory, Engine, Member, MemoryError, Moment,
+    Published, StepSize,
 };
 
 /// Publishes the time of its latest instant as its x, and notes what it sees of another.
@@ -92,7 +92,7 @@ proptest! {
         let step = |ns| StepSize::from_ns(ns * 100_000).unwrap();
         let (a, b, every) = (step(a_ns), step(b_ns), step(box_ns));
         let end_ns = end_ns * 77_777;
-        let mut simulation = Simulation::new(vec![
+        let mut simulation = Engine::new(vec![
             Member::new(Probe::new("a", "b"), a),
             Member::new(Probe::new("b", "a"), b),
         ]).unwrap();

@@ -5,11 +5,11 @@ use quad_dynamics::Level;
 use quad_ndi::Reference;
 use sifre::quadrotor::{OpenLoop, Script, Setup, Start};
 use sifre::{
-    Event, Member, Observer, Quadrotor, RunStatus, Schedule, Simulation, StopCondition, Target, Who,
+    Engine, Event, Member, ModelQuadrotor, Observer, RunStatus, Schedule, StopCondition, Target, Who,
 };
 
 /// A stone: a vehicle at 5 m without thrust, and a target beside it.
-fn stone() -> Simulation {
+fn stone() -> Engine {
     let vehicle = vehicle();
     let start = Start {
         position_m: [0.0, 0.0, -5.0],
@@ -21,8 +21,8 @@ fn stone() -> Simulation {
         ..Setup::new("stone", &vehicle, Level::Two, OpenLoop::default(), hold)
     };
     let target = Target::fixed("target", [1.0, 0.0, 0.0].into());
-    Simulation::new(vec![
-        Member::new(Quadrotor::new(setup).unwrap(), ms(1.0)),
+    Engine::new(vec![
+        Member::new(ModelQuadrotor::new(setup).unwrap(), ms(1.0)),
         Member::new(target, ms(10.0)),
     ])
     .unwrap()
@@ -83,7 +83,8 @@ fn exact_divergence_keeps_the_last_state() {
         script,
         ..Setup::new("alpha", &vehicle, Level::Three, c3(&vehicle), hold)
     };
-    let mut simulation = Simulation::new(vec![Member::new(Quadrotor::new(setup).unwrap(), ms(1.0))]).unwrap();
+    let mut simulation =
+        Engine::new(vec![Member::new(ModelQuadrotor::new(setup).unwrap(), ms(1.0))]).unwrap();
     for _ in 0..2 {
         // Asked again it says the same again.
         let report = simulation.run(1.0, &mut ()).unwrap();
@@ -120,9 +121,9 @@ fn exact_events_are_observed() {
     let quadrotor = |name: &str| {
         let setup = Setup::new(name, &vehicle, Level::Three, c3(&vehicle), hold);
         let script = script.clone();
-        Member::new(Quadrotor::new(Setup { script, ..setup }).unwrap(), ms(1.0))
+        Member::new(ModelQuadrotor::new(Setup { script, ..setup }).unwrap(), ms(1.0))
     };
-    let mut simulation = Simulation::new(vec![quadrotor("b"), quadrotor("a")]).unwrap();
+    let mut simulation = Engine::new(vec![quadrotor("b"), quadrotor("a")]).unwrap();
     let mut seen = Seen::default();
     simulation.run(0.1, &mut seen).unwrap();
     let names: Vec<_> = seen

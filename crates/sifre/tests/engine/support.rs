@@ -7,8 +7,8 @@ use quad_ndi::{AnyController, C1, C3, Pid, PidGains, PidSettings, Reference, Set
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{Gusts, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
 use sifre::{
-    Ets, EtsSetup, Facing, Follow, Member, Path, Quadrotor, Recording, RunReport, Schedule, Simulation,
-    StepSize, Target,
+    Engine, EtsSetup, Facing, Follow, GimballedEts, Member, ModelQuadrotor, Path, Recording, RunReport,
+    Schedule, StepSize, Target,
 };
 use std::sync::Arc;
 
@@ -142,7 +142,7 @@ impl Plan {
             position_m: self.start,
             yaw_rad: 0.2,
         };
-        let quadrotor = Quadrotor::new(Setup {
+        let quadrotor = ModelQuadrotor::new(Setup {
             start,
             script,
             ..setup
@@ -153,11 +153,11 @@ impl Plan {
 }
 
 /// A station that tracks the first quadrotor, its image noisy.
-fn station() -> Ets {
+fn station() -> GimballedEts {
     let mut setup = EtsSetup::nominal("station", name(0));
     setup.station.frames.noise = 2.0;
     setup.seed = 7;
-    Ets::new(setup)
+    GimballedEts::new(setup)
 }
 
 /// The quadrotors of these plans, a target and a station, in the order of `order`.
@@ -233,7 +233,7 @@ pub(crate) fn plans() -> impl Strategy<Value = Vec<Plan>> {
 }
 
 /// Runs with a black box every 2 ms and gives its recording.
-pub(crate) fn run_recorded(simulation: &mut Simulation, end_s: f64) -> (RunReport, Recording) {
+pub(crate) fn run_recorded(simulation: &mut Engine, end_s: f64) -> (RunReport, Recording) {
     let id = simulation
         .attach(ms(2.0), MemoryBox::default())
         .expect("attached at the start or where it was");
@@ -260,13 +260,13 @@ pub(crate) fn sorted_bits(recording: &Recording) -> Vec<(String, Vec<u64>)> {
 }
 
 /// A snapshot as text, its agents sorted by name.
-pub(crate) fn sorted_snapshot(simulation: &Simulation) -> String {
+pub(crate) fn sorted_snapshot(simulation: &Engine) -> String {
     let mut snapshot = simulation.save().expect("states are JSON");
     snapshot.agents.sort_by(|a, b| a.name.cmp(&b.name));
     serde_json::to_string(&snapshot).expect("a snapshot is JSON")
 }
 
 /// Position of an agent.
-pub(crate) fn position(simulation: &Simulation, name: &str) -> Vector3<f64> {
+pub(crate) fn position(simulation: &Engine, name: &str) -> Vector3<f64> {
     simulation.published(name).expect("it is there").position
 }

@@ -8,14 +8,14 @@ use quad_ndi::Reference;
 use sifre::quadrotor::{
     EstimateUse, Estimation, EstimationSetupError, InitialError, QuadrotorError, Setup, Start, VectorError,
 };
-use sifre::{Member, Quadrotor, Simulation};
+use sifre::{Engine, Member, ModelQuadrotor};
 
 /// Two metres up, heading east, to the north at 2 m/s, watched by a filter without sensors.
-fn quadrotor(error: InitialError, seed: u64) -> Result<Quadrotor, QuadrotorError> {
+fn quadrotor(error: InitialError, seed: u64) -> Result<ModelQuadrotor, QuadrotorError> {
     let vehicle = vehicle();
     let blind = SensorSuite::new([]).expect("no sensor is wrong");
     let at = [1.0, 0.0, -2.0];
-    Quadrotor::new(Setup {
+    ModelQuadrotor::new(Setup {
         start: Start {
             position_m: at,
             yaw_rad: std::f64::consts::FRAC_PI_2,
@@ -45,7 +45,7 @@ struct First {
 
 fn first(error: InitialError, seed: u64) -> First {
     let quadrotor = quadrotor(error, seed).expect("a valid setup");
-    let mut simulation = Simulation::new(vec![Member::new(quadrotor, ms(2.0))]).expect("one agent");
+    let mut simulation = Engine::new(vec![Member::new(quadrotor, ms(2.0))]).expect("one agent");
     let (_, flown) = run_recorded(&mut simulation, 0.0);
     let difference = |what: &str, ends: [&str; 3]| {
         let at = |of: &str, end: &str| {

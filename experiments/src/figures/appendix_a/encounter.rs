@@ -11,7 +11,7 @@ use quad_ndi::Waypoint;
 use serde::Serialize;
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{Setup, Start};
-use sifre::{Ets, EtsSetup, Facing, Member, Mission, Quadrotor, Recording, Simulation, steps};
+use sifre::{Engine, EtsSetup, Facing, GimballedEts, Member, Mission, ModelQuadrotor, Recording, steps};
 use std::sync::Arc;
 
 /// Duration of the flight, s.
@@ -88,9 +88,12 @@ impl Encounter {
         let mut members = Vec::new();
         for pair in &self.pairs {
             members.push(Member::new(pair.quadrotor(&vehicle)?, steps::QUADROTOR.step));
-            members.push(Member::new(Ets::new(pair.ets(&nominal)), steps::ETS.step));
+            members.push(Member::new(
+                GimballedEts::new(pair.ets(&nominal)),
+                steps::ETS.step,
+            ));
         }
-        let mut simulation = Simulation::new(members)?;
+        let mut simulation = Engine::new(members)?;
         let id = simulation.attach(steps::BLACK_BOX.step, MemoryBox::default())?;
         let report = simulation.run(self.duration_s, &mut ())?;
         if !report.status.is_completed() {
@@ -128,7 +131,7 @@ impl Pair {
         })
     }
 
-    fn quadrotor(&self, vehicle: &Arc<Vehicle>) -> Result<Quadrotor, ItemError> {
+    fn quadrotor(&self, vehicle: &Arc<Vehicle>) -> Result<ModelQuadrotor, ItemError> {
         let (pilot, tilt_law) = controller(self.level, vehicle)?;
         let waypoints = self.waypoints();
         let mission = Mission::through(&waypoints, vehicle.environment.gravity, tilt_law)?;
@@ -137,7 +140,7 @@ impl Pair {
             yaw_rad: std::f64::consts::PI + PATH[0][0].to_radians(),
         };
         let guidance = Facing::agent(mission, self.station);
-        Ok(Quadrotor::new(Setup {
+        Ok(ModelQuadrotor::new(Setup {
             start,
             ..Setup::new(self.quadrotor, vehicle, self.level, pilot, guidance)
         })?)

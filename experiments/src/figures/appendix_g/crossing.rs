@@ -6,7 +6,9 @@ use quad_dynamics::{Level, Vehicle};
 use quad_ndi::{AnyController, Law, LoopDesign, PidSettings, Settings, TiltLaw, Waypoint};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{Setup, Start};
-use sifre::{Ets, EtsSetup, Facing, Member, Mission, Quadrotor, Recording, Simulation, StepSize, steps};
+use sifre::{
+    Engine, EtsSetup, Facing, GimballedEts, Member, Mission, ModelQuadrotor, Recording, StepSize, steps,
+};
 use std::sync::Arc;
 
 /// Duration of the crossing, s.
@@ -57,8 +59,8 @@ pub(super) fn cross(
         pilot,
         Facing::agent(mission, "station"),
     );
-    let quadrotor = Quadrotor::new(Setup { start, ..setup })?;
-    let ets = Ets::new(EtsSetup {
+    let quadrotor = ModelQuadrotor::new(Setup { start, ..setup })?;
+    let ets = GimballedEts::new(EtsSetup {
         station: station.clone(),
         pan_rad: y.atan2(x),
         tilt_rad: (-z).atan2(x.hypot(y)),
@@ -67,7 +69,7 @@ pub(super) fn cross(
     let finer = |declared: steps::DeclaredStep| -> Result<StepSize, ItemError> {
         Ok(declared.step.refined(refinement)?)
     };
-    let mut simulation = Simulation::new(vec![
+    let mut simulation = Engine::new(vec![
         Member::new(quadrotor, finer(steps::QUADROTOR)?),
         Member::new(ets, finer(steps::ETS)?),
     ])?;

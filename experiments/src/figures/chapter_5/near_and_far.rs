@@ -6,7 +6,7 @@ use quad_dynamics::{Level, Resolution, Vehicle};
 use quad_ndi::{AnyController, C1, TiltLaw, Waypoint};
 use sifre::black_box::MemoryBox;
 use sifre::quadrotor::{LevelRule, Script, Setup, Start};
-use sifre::{Event, Member, Mission, Quadrotor, Recording, Simulation, Target, steps};
+use sifre::{Engine, Event, Member, Mission, ModelQuadrotor, Recording, Target, steps};
 use std::sync::Arc;
 
 /// Duration, s.
@@ -47,8 +47,8 @@ pub(super) fn fly(vehicle: &Arc<Vehicle>, rule: Option<LevelRule>) -> Result<Fli
     };
     let step = steps::QUADROTOR.step;
     let station = Target::fixed("station", STATION.into());
-    let mut simulation = Simulation::new(vec![
-        Member::new(Quadrotor::new(setup)?, step),
+    let mut simulation = Engine::new(vec![
+        Member::new(ModelQuadrotor::new(setup)?, step),
         Member::new(station, step),
     ])?;
     let id = simulation.attach(step, MemoryBox::default())?;

@@ -1,6 +1,6 @@
 //! Black boxes and their rates.
 
-use super::{Phase, Simulation};
+use super::{Engine, Phase};
 use crate::black_box::{BlackBox, BlackBoxError, Channel};
 use crate::clock::{StepSize, seconds};
 use crate::error::SimulationError;
@@ -8,7 +8,7 @@ use std::any::Any;
 
 /// A black box attached to a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct RecorderId(usize);
+pub struct RecorderId(pub(crate) usize);
 
 /// A black box and when it is due.
 pub(super) struct Recorder {
@@ -45,7 +45,7 @@ pub(super) fn first_not_before(now_ns: u64, step: StepSize) -> u64 {
     now_ns.div_ceil(step.ns()) * step.ns()
 }
 
-impl Simulation {
+impl Engine {
     /// Attaches a black box that records every agent's channels at the whole multiples of a step, from now on.
     ///
     /// # Errors
@@ -55,6 +55,14 @@ impl Simulation {
         &mut self,
         step: StepSize,
         black_box: impl BlackBox,
+    ) -> Result<RecorderId, SimulationError> {
+        self.attach_boxed(step, Box::new(black_box))
+    }
+
+    pub(super) fn attach_boxed(
+        &mut self,
+        step: StepSize,
+        mut black_box: Box<dyn BlackBox>,
     ) -> Result<RecorderId, SimulationError> {
         // The present instant is over unless it is still fresh.
         let from_ns = self.now_ns + u64::from(self.phase != Phase::Fresh);
@@ -74,7 +82,6 @@ impl Simulation {
             }
         }
         let channels = self.channels();
-        let mut black_box: Box<dyn BlackBox> = Box::new(black_box);
         black_box.begin(&channels)?;
         let id = RecorderId(self.recorders_ever);
         self.recorders_ever += 1;
@@ -94,10 +101,24 @@ impl Simulation {
         if !(self.recorders[place].black_box.as_ref() as &dyn Any).is::<B>() {
             return None;
         }
-        let mut black_box = self.recorders.swap_remove(place).black_box;
-        let finished = black_box.finish();
+        let (black_box, finished) = self.take(place);
         let black_box = (black_box as Box<dyn Any>).downcast::<B>().ok()?;
         Some(finished.map(|()| *black_box))
+    }
+
+    pub(super) fn detach_boxed(
+        &mut self,
+        id: RecorderId,
+    ) -> Option<Result<Box<dyn BlackBox>, BlackBoxError>> {
+        let place = self.recorders.iter().position(|recorder| recorder.id == id)?;
+        let (black_box, finished) = self.take(place);
+        Some(finished.map(|()| black_box))
+    }
+
+    fn take(&mut self, place: usize) -> (Box<dyn BlackBox>, Result<(), BlackBoxError>) {
+        let mut black_box = self.recorders.swap_remove(place).black_box;
+        let finished = black_box.finish();
+        (black_box, finished)
     }
 
     /// Finishes and detaches all black boxes: files are complete after it.
@@ -153,9 +174,9 @@ impl Simulation {
     }
 }
 
-impl Drop for Simulation {
+impl Drop for Engine {
     /// Files of a simulation that is dropped in mid-run are completed as far as possible; who wants to know whether
-    /// it worked calls [`Simulation::finish_recordings`].
+    /// it worked calls [`Engine::finish_recordings`].
     fn drop(&mut self) {
         let _ = self.finish_recordings();
     }

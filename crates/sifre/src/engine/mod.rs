@@ -10,8 +10,8 @@
 //!
 //! Nothing that an agent does at an instant is visible to another before the first one's next instant, so neither the
 //! order of agents nor threads matter. Runs end at a time, at a [`StopCondition`], where an agent diverges, or where
-//! the [`Observer`] says so; they can always be continued, and [saved](Simulation::save) and
-//! [resumed](Simulation::resume), bit for bit.
+//! the [`Observer`] says so; they can always be continued, and [saved](Engine::save) and
+//! [resumed](Engine::resume), bit for bit.
 
 mod group;
 mod recorder;
@@ -27,16 +27,18 @@ pub use stop::{
 };
 
 use crate::agent::{Agent, AgentId, Directory, Member, Published};
-use crate::clock::seconds;
+use crate::black_box::{BlackBox, BlackBoxError, Channel};
+use crate::clock::{StepSize, seconds};
 use crate::error::SimulationError;
 use crate::event::Event;
+use crate::simulation::Simulation;
 use group::{Group, Slot};
 use recorder::Recorder;
 use std::any::Any;
 
 /// Agents, time, and what watches them.
 #[derive(Debug)]
-pub struct Simulation {
+pub struct Engine {
     /// Names in the order in which the agents were given: the order of rows.
     names: Vec<String>,
     /// Where each of them is.
@@ -60,7 +62,7 @@ struct Place {
     slot: usize,
 }
 
-impl Simulation {
+impl Engine {
     /// A simulation of these agents at time 0.
     ///
     /// # Errors
@@ -201,5 +203,39 @@ impl Simulation {
     fn slot(&self, id: usize) -> &Slot {
         let Place { group, slot } = self.places[id];
         &self.groups[group].slots[slot]
+    }
+}
+
+impl Simulation for Engine {
+    fn names(&self) -> &[String] {
+        Self::names(self)
+    }
+
+    fn now_ns(&self) -> u64 {
+        self.now_ns
+    }
+
+    fn published(&self, name: &str) -> Option<&Published> {
+        Self::published(self, name)
+    }
+
+    fn channels(&self) -> Vec<Channel> {
+        Self::channels(self)
+    }
+
+    fn attach_box(
+        &mut self,
+        step: StepSize,
+        black_box: Box<dyn BlackBox>,
+    ) -> Result<RecorderId, SimulationError> {
+        self.attach_boxed(step, black_box)
+    }
+
+    fn detach_box(&mut self, id: RecorderId) -> Option<Result<Box<dyn BlackBox>, BlackBoxError>> {
+        self.detach_boxed(id)
+    }
+
+    fn run(&mut self, end_s: f64, observer: &mut dyn Observer) -> Result<RunReport, SimulationError> {
+        Self::run(self, end_s, observer)
     }
 }

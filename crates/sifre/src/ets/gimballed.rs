@@ -1,4 +1,4 @@
-//! The energy transmission system as an agent: a ground station that keeps its beam on another agent's receiver.
+//! The station as it is built: a camera and a laser on a gimbal, driven by the tracker.
 //!
 //! ```text
 //! decide at t_n    a frame is captured or delivered if due; the tracker commands the gimbal's rates
@@ -11,41 +11,25 @@
 //! station's camera has some, is drawn from stream n of a ChaCha8 generator for step n: a pure function of the seed and
 //! the step, with nothing to save.
 
+use super::record::{self, Seen};
+use super::{Ets, EtsSetup, pose};
 use crate::agent::{Agent, AgentId, Directory, MemoryError, Moment, Published};
-use crate::black_box::{Channel, Frame, Role};
+use crate::black_box::Channel;
 use crate::clock::StepSize;
 use crate::error::BindError;
 use crate::event::AgentEvent;
 use crate::exact::{Exact, exact, plain};
-use ::ets::{Ets as Physics, EtsInput, EtsState, Face, FrameClock, FrameEvent, Link, Mode, Station};
-use nalgebra::{Vector2, Vector3};
-use quad_kinematics::Rotation;
+use ::ets::{Ets as Physics, EtsInput, EtsState, Face, FrameClock, FrameEvent, GimbalState, Link, Mode};
+use nalgebra::Vector2;
 use quad_math::Flat;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use serde::{Deserialize, Serialize};
 
-/// Everything that makes an energy transmission system.
-#[derive(Clone, Debug)]
-pub struct EtsSetup {
-    /// Name of the agent.
-    pub name: String,
-    /// Name of the agent that it tracks.
-    pub target: String,
-    /// Its parameters, and those of the receiver that the target carries.
-    pub station: Station,
-    /// Pan at the start, rad, clockwise from the pedestal's heading.
-    pub pan_rad: f64,
-    /// Tilt at the start, rad, upwards.
-    pub tilt_rad: f64,
-    /// Seed of the image's noise.
-    pub seed: u64,
-}
-
-/// A ground station that tracks an agent.
+/// A ground station that tracks an agent with a camera on a gimbal.
 #[derive(Debug)]
-pub struct Ets {
+pub struct GimballedEts {
     setup: EtsSetup,
     physics: Physics<f64>,
     timing: Option<Timing>,
@@ -74,21 +58,7 @@ struct Memory {
     face_axes: [[Exact; 3]; 3],
 }
 
-impl EtsSetup {
-    /// The project's nominal station, at rest with zero pan and tilt.
-    pub fn nominal(name: impl Into<String>, target: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            target: target.into(),
-            station: Station::nominal(),
-            pan_rad: 0.0,
-            tilt_rad: 0.0,
-            seed: 0,
-        }
-    }
-}
-
-impl Ets {
+impl GimballedEts {
     /// The station at rest, nothing seen yet: it searches first.
     pub fn new(setup: EtsSetup) -> Self {
         let physics = Physics::new(&setup.station);
@@ -111,14 +81,14 @@ impl Ets {
         &self.state
     }
 
-    /// What its tracker is doing.
-    pub fn mode(&self) -> Mode {
-        self.state.sight.mode(&self.physics.tracker)
-    }
-
-    /// The light on the receiver at its latest instant.
-    pub fn link(&self) -> Link<f64> {
-        self.physics.link(&self.state.gimbal, &self.face)
+    /// What there is to record.
+    fn seen(&self) -> Seen {
+        Seen {
+            gimbal: self.state.gimbal,
+            command: self.physics.command(&self.state),
+            mode: self.mode(),
+            face: self.face,
+        }
     }
 
     /// Noise of the image captured at step `n`, px.
@@ -134,7 +104,25 @@ impl Ets {
     }
 }
 
-impl Agent for Ets {
+impl Ets for GimballedEts {
+    fn target(&self) -> &str {
+        &self.setup.target
+    }
+
+    fn mode(&self) -> Mode {
+        self.state.sight.mode(&self.physics.tracker)
+    }
+
+    fn gimbal(&self) -> GimbalState<f64> {
+        self.state.gimbal
+    }
+
+    fn link(&self) -> Link<f64> {
+        self.physics.link(&self.state.gimbal, &self.face)
+    }
+}
+
+impl Agent for GimballedEts {
     fn name(&self) -> &str {
         &self.setup.name
     }
@@ -159,15 +147,7 @@ impl Agent for Ets {
     }
 
     fn published(&self) -> Published {
-        let gimbal = &self.state.gimbal;
-        let rates =
-            ::ets::platform_rate_matrix(gimbal.tilt) * Vector2::new(gimbal.pan_rate, gimbal.tilt_rate);
-        Published {
-            position: self.physics.pedestal.origin(),
-            velocity: Vector3::zeros(),
-            rotation: Rotation::from_matrix(self.physics.pedestal.rotation(gimbal).matrix),
-            body_rates: rates,
-        }
+        pose(&self.physics, &self.state.gimbal)
     }
 
     fn decide(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {
@@ -198,97 +178,11 @@ impl Agent for Ets {
     }
 
     fn channels(&self) -> Vec<Channel> {
-        let axes = ["pan", "tilt"];
-        let mut all = Vec::new();
-        all.extend(Channel::group("gimbal", axes, Role::State, "rad", Frame::Scalar));
-        all.extend(Channel::group(
-            "gimbal_rate",
-            axes,
-            Role::State,
-            "rad/s",
-            Frame::Scalar,
-        ));
-        // Where it stands does not change; it is recorded so that a recording can be understood alone.
-        let xyz = ["x", "y", "z"];
-        all.extend(Channel::group("position", xyz, Role::State, "m", Frame::World));
-        all.push(Channel::new("heading", Role::State, "rad", Frame::Scalar));
-        // 0 searching, 1 coasting, 2 tracking.
-        all.push(Channel::new("mode", Role::State, "1", Frame::Scalar));
-        all.extend(Channel::group(
-            "command",
-            axes,
-            Role::Input,
-            "rad/s",
-            Frame::Scalar,
-        ));
-        all.extend(Channel::group(
-            "target",
-            ["x", "y", "z"],
-            Role::Reference,
-            "m",
-            Frame::World,
-        ));
-        all.extend(Channel::group(
-            "image",
-            ["x", "y"],
-            Role::Output,
-            "px",
-            Frame::Camera,
-        ));
-        all.push(Channel::new("visible", Role::Output, "1", Frame::Scalar));
-        all.push(Channel::new("range", Role::Output, "m", Frame::Scalar));
-        all.push(Channel::new("incidence", Role::Output, "rad", Frame::Scalar));
-        // On the sensor's plane: to the right of one who looks at it, and up the vehicle.
-        all.extend(Channel::group(
-            "spot",
-            ["right", "up"],
-            Role::Output,
-            "m",
-            Frame::Body,
-        ));
-        let power = ["transmitted", "received", "missed", "electrical"];
-        all.extend(Channel::group("power", power, Role::Output, "W", Frame::Scalar));
-        all
+        record::channels()
     }
 
     fn record(&self, row: &mut [f64]) {
-        let gimbal = &self.state.gimbal;
-        let command = self.physics.command(&self.state);
-        let image = self.physics.view(gimbal, &self.face.centre);
-        let Link { geometry, power } = self.link();
-        let mode = match self.mode() {
-            Mode::Searching => 0.0,
-            Mode::Coasting => 1.0,
-            Mode::Tracking => 2.0,
-        };
-        let (target, pedestal) = (&self.face.centre, &self.setup.station.pedestal);
-        row.copy_from_slice(&[
-            gimbal.pan,
-            gimbal.tilt,
-            gimbal.pan_rate,
-            gimbal.tilt_rate,
-            pedestal.position[0],
-            pedestal.position[1],
-            pedestal.position[2],
-            pedestal.heading,
-            mode,
-            command.pan_rate,
-            command.tilt_rate,
-            target.x,
-            target.y,
-            target.z,
-            image.point.x,
-            image.point.y,
-            image.visible,
-            geometry.range,
-            geometry.incidence,
-            geometry.spot.x,
-            geometry.spot.y,
-            power.transmitted,
-            power.received,
-            power.missed,
-            power.electrical,
-        ]);
+        record::write(&self.physics, &self.setup.station, &self.seen(), row);
     }
 
     fn save(&self) -> Result<serde_json::Value, serde_json::Error> {

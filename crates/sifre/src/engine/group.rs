@@ -3,6 +3,7 @@
 use crate::agent::{Agent, AgentId, Moment, Published};
 use crate::clock::{StepSize, seconds};
 use crate::event::AgentEvent;
+use crate::speed::Hook;
 use rayon::prelude::*;
 
 /// Agents that one thread takes at least: below it, handing them over costs more than moving them.
@@ -56,7 +57,7 @@ impl Slot {
     fn live(&mut self, now: &Moment<'_>, work: Work) -> bool {
         self.row_is_current = work.capture;
         let event = if work.advance && !work.capture {
-            self.agent.decide_and_advance(now)
+            self.agent.decide_and_advance(now, Hook(()))
         } else {
             let event = self.agent.decide(now);
             if work.capture {

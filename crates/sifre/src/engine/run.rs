@@ -1,12 +1,13 @@
 //! Running: from instant to instant, until something says stop.
 
 use super::group::Work;
-use super::{LastSeen, Observer, PROGRESS_EVERY, Phase, Progress, RunReport, RunStatus, Scene, Simulation};
+use super::{Engine, LastSeen, Observer, PROGRESS_EVERY, Phase, Progress, RunReport, RunStatus, Scene};
 use crate::clock::{instant_ns, seconds};
 use crate::error::SimulationError;
 use crate::event::{AgentEvent, Event};
+use crate::speed::Hook;
 
-impl Simulation {
+impl Engine {
     /// Runs to an end time, s, or to whatever ends the run before; can be called again with a later end.
     ///
     /// The instant at which a run ends is complete but for the move to the next: everybody has published, decided and
@@ -87,7 +88,7 @@ impl Simulation {
             for slot in &group.slots {
                 let id = slot.id.0;
                 let first = |(other, _): (usize, u64)| self.names[id] < self.names[other];
-                if slot.agent.publish(&mut self.scene[id]).is_err() && diverged.is_none_or(first) {
+                if slot.agent.publish(&mut self.scene[id], Hook(())).is_err() && diverged.is_none_or(first) {
                     diverged = Some((id, group.step.ns()));
                 }
             }

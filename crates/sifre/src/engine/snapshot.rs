@@ -2,10 +2,10 @@
 //!
 //! A snapshot holds the time, and each agent's state, memory and what others see of it. It does not hold how the
 //! agents were put together (vehicles, gains, guidance, closures): that is the scenario's, and is given again to
-//! [`Simulation::resume`]. Nor does it hold black boxes, stop conditions and threads, which are attached anew.
+//! [`Engine::resume`]. Nor does it hold black boxes, stop conditions and threads, which are attached anew.
 
 use super::recorder::first_not_before;
-use super::{Place, Simulation};
+use super::{Engine, Place};
 use crate::agent::{Member, Published};
 use crate::clock::StepSize;
 use crate::error::SnapshotError;
@@ -94,7 +94,7 @@ impl SimulationSnapshot {
     }
 }
 
-impl Simulation {
+impl Engine {
     /// The simulation as it is now.
     ///
     /// # Errors
@@ -124,7 +124,7 @@ impl Simulation {
     /// The simulation of these agents, put together as they were at first, going on from a snapshot.
     ///
     /// # Errors
-    /// Agents that can't be simulated, as [`Simulation::new`]; or other agents than the snapshot's.
+    /// Agents that can't be simulated, as [`Engine::new`]; or other agents than the snapshot's.
     pub fn resume(members: Vec<Member>, snapshot: &SimulationSnapshot) -> Result<Self, ResumeError> {
         let mut simulation = Self::new(members)?;
         simulation.take_up(snapshot)?;
