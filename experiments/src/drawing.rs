@@ -6,6 +6,7 @@ use crate::claim::{Claim, Finding};
 use crate::data::DataTable;
 use crate::plot::svg::Svg;
 use crate::plot::text;
+use crate::scenarios::ScenarioFile;
 
 /// The result of making an item.
 #[derive(Clone, Debug)]
@@ -17,7 +18,12 @@ pub struct Drawing {
     /// The data drawn; the first table becomes `<id>.csv`, a further one `<id>-<name>.csv`.
     pub data: Vec<(String, DataTable)>,
     /// The resolved settings, written as `<id>.toml`.
-    pub scenario: Option<toml::Table>,
+    pub settings: Option<toml::Table>,
+    /// The scenarios that were flown: the first is written as `<id>.toml` unless the settings are, further ones under
+    /// their own names.
+    pub scenarios: Vec<&'static ScenarioFile>,
+    /// Files that a scenario names, with their texts.
+    pub files: Vec<(String, String)>,
     /// What the run found for the item's claims.
     pub findings: Vec<Finding>,
     /// Remarks shown under the item. Rich text.
@@ -65,7 +71,9 @@ impl Drawing {
             body,
             beneath: None,
             data: Vec::new(),
-            scenario: None,
+            settings: None,
+            scenarios: Vec::new(),
+            files: Vec::new(),
             findings: Vec::new(),
             notes: Vec::new(),
         }
@@ -92,9 +100,21 @@ impl Drawing {
     ///
     /// # Errors
     /// Settings that TOML cannot express, such as a bare number.
-    pub fn scenario<S: Serialize>(mut self, settings: &S) -> Result<Self, toml::ser::Error> {
-        self.scenario = Some(toml::Table::try_from(settings)?);
+    pub fn settings<S: Serialize>(mut self, settings: &S) -> Result<Self, toml::ser::Error> {
+        self.settings = Some(toml::Table::try_from(settings)?);
         Ok(self)
+    }
+
+    /// Records a scenario that was flown.
+    pub fn scenario(mut self, file: &'static ScenarioFile) -> Self {
+        self.scenarios.push(file);
+        self
+    }
+
+    /// Records a file that a scenario names.
+    pub fn file(mut self, name: impl Into<String>, text: impl Into<String>) -> Self {
+        self.files.push((name.into(), text.into()));
+        self
     }
 
     /// Records what the run found for a registered claim: whether it holds, and the measured number with its unit.
@@ -184,7 +204,7 @@ mod tests {
     #[test]
     fn prop_settings_must_be_a_table() {
         let drawing = || Drawing::table(DisplayTable::default());
-        assert!(drawing().scenario(&1.0).is_err());
-        assert!(drawing().scenario(&toml::toml! { settling_time_s = 0.2 }).is_ok());
+        assert!(drawing().settings(&1.0).is_err());
+        assert!(drawing().settings(&toml::toml! { settling_time_s = 0.2 }).is_ok());
     }
 }

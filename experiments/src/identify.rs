@@ -40,10 +40,10 @@ struct Subject {
 
 impl Subject {
     fn new(context: &Context) -> Result<Self, ItemError> {
-        let path = context.data(crate::flight::NOMINAL_VEHICLE);
+        let path = context.data(crate::vehicle::NOMINAL_VEHICLE);
         let text =
             fs::read_to_string(&path).map_err(|e| ItemError::new(format!("{}: {e}", path.display())))?;
-        let nominal = VehicleFile::from_toml_str(&text, crate::flight::NOMINAL_VEHICLE)?;
+        let nominal = VehicleFile::from_toml_str(&text, crate::vehicle::NOMINAL_VEHICLE)?;
         let mut truth = nominal.clone();
         truth.airframe.centre_of_mass_m.value = TRUE_CENTRE_OF_MASS_M;
         let vehicle = Vehicle::from_file(&truth, "the true vehicle")?;
@@ -56,7 +56,7 @@ impl Subject {
 
     /// Measurements with the noise of a seed, and what is identified from them.
     fn identified(&self, seed: u64) -> Result<(Measurements, Identified), ItemError> {
-        let measurements = VirtualLaboratory::new(figures::flight_settings())
+        let measurements = VirtualLaboratory::new(figures::flight_settings()?)
             .measure(&self.vehicle, seed)
             .map_err(|e| ItemError::new(e.to_string()))?;
         let found = identify(&measurements, &self.nominal).map_err(|e| ItemError::new(e.to_string()))?;
@@ -73,7 +73,7 @@ pub fn run(context: &Context, seed: u64, out: &Path) -> Result<Outcome, ItemErro
     let (measurements, found) = subject.identified(seed)?;
     let truth = &subject.truth;
     let identified = Vehicle::from_file(&found.file, "the identified vehicle")?;
-    let claims = figures::claims_of_figure_6_14(&identified)?;
+    let claims = figures::claims_of_figure_6_14(&found.file.to_toml())?;
 
     let cells = Cells::calibrated(&measurements.thrust_cell, &measurements.torque_cell)
         .map_err(|e| ItemError::new(e.to_string()))?;

@@ -16,7 +16,6 @@ pub mod cli;
 pub mod data;
 pub mod drawing;
 pub mod figures;
-pub mod flight;
 pub mod gallery;
 pub mod identify;
 pub mod item;
@@ -25,7 +24,9 @@ pub mod recordings;
 pub mod reference;
 mod rotor_bench;
 pub mod run;
+pub mod scenarios;
 pub mod station;
 pub mod summary;
+pub mod vehicle;
 
 pub use quad_plot as plot;

@@ -31,7 +31,7 @@ pub enum OutputError {
     Raster(#[from] RasterError),
     /// The settings could not be written as TOML.
     #[error("cannot write the settings: {0}")]
-    Scenario(#[from] toml::ser::Error),
+    Settings(#[from] toml::ser::Error),
 }
 
 /// Writes all files of a drawing into `folder` and returns their names.
@@ -69,8 +69,16 @@ pub fn write(folder: &Path, id: &str, drawing: &Drawing) -> Result<Vec<String>, 
         })?;
         save(file, &content)?;
     }
-    if let Some(settings) = &drawing.scenario {
+    if let Some(settings) = &drawing.settings {
         save(format!("{id}.toml"), toml::to_string_pretty(settings)?.as_bytes())?;
+    }
+    for (k, scenario) in drawing.scenarios.iter().enumerate() {
+        let is_first = k == 0 && drawing.settings.is_none();
+        let name = if is_first { id } else { scenario.name };
+        save(format!("{name}.toml"), scenario.text.as_bytes())?;
+    }
+    for (name, text) in &drawing.files {
+        save(name.clone(), text.as_bytes())?;
     }
     Ok(files)
 }

@@ -1,6 +1,5 @@
 //! What a step response and a flight are judged by.
 
-use crate::closed_loop::Record;
 use quad_dynamics::CommandLimits;
 
 /// Band around the final value that counts as settled, as a fraction of the step.
@@ -85,19 +84,19 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// The effort of recorded commands, measured from the hover commands.
-    pub fn of(records: &[Record], hover: &[f64; 4], limits: Option<&CommandLimits<f64>>) -> Self {
-        let distance = |r: &Record| {
-            let squares = r.commands.iter().zip(hover).map(|(u, h)| (u - h).powi(2));
+    /// The effort of commands `(t, u)` in order of time, measured from the hover commands.
+    pub fn of(commands: &[(f64, [f64; 4])], hover: &[f64; 4], limits: Option<&CommandLimits<f64>>) -> Self {
+        let distance = |commands: &[f64; 4]| {
+            let squares = commands.iter().zip(hover).map(|(u, h)| (u - h).powi(2));
             (squares.sum::<f64>() / 4.0).sqrt()
         };
-        let points: Vec<(f64, f64)> = records.iter().map(|r| (r.time_s, distance(r))).collect();
+        let points: Vec<(f64, f64)> = commands.iter().map(|(t, u)| (*t, distance(u))).collect();
         let saturated =
-            |r: &Record| limits.is_some_and(|l| r.commands.iter().any(|&u| u <= l.minimum || u >= l.maximum));
-        let saturation_time_s = records
+            |u: &[f64; 4]| limits.is_some_and(|l| u.iter().any(|&u| u <= l.minimum || u >= l.maximum));
+        let saturation_time_s = commands
             .windows(2)
-            .filter(|w| saturated(&w[0]))
-            .map(|w| w[1].time_s - w[0].time_s)
+            .filter(|w| saturated(&w[0].1))
+            .map(|w| w[1].0 - w[0].0)
             // Not `sum`, which of nothing is −0.
             .fold(0.0, |total, held| total + held);
         Self {

@@ -2,7 +2,7 @@
 //!
 //! `cargo run -p scenario --example vary`
 
-use scenario::{MetricsBox, Scenario, set};
+use scenario::{Keep, Setting, Template};
 use std::error::Error;
 
 const GUST: &str = r#"
@@ -17,26 +17,12 @@ const GUST: &str = r#"
 "#;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut table: toml::Table = toml::from_str(GUST)?;
+    let gust = Template::from_toml_str(GUST, "gust")?;
     println!("level  largest error, m");
     for level in [4, 5] {
-        set(&mut table, "quadrotor.alpha.level", level)?;
-        let mut flight = Scenario::from_table(&table, "gust")?.build(&())?.fly()?;
-        let id = flight
-            .simulation
-            .attach(flight.metrics_step(), MetricsBox::default())?;
-        flight.run(&mut ())?;
-        let Some(metrics) = flight.simulation.detach::<MetricsBox>(id).transpose()? else {
-            continue;
-        };
-        let metrics = metrics.metrics();
-        let error = metrics
-            .iter()
-            .find(|metric| metric.name == "alpha.position_error_max_m");
-        println!(
-            "{level:5}  {:16.4}",
-            error.map_or(f64::NAN, |metric| metric.value)
-        );
+        let scenario = gust.with(&[Setting::new("quadrotor.alpha.level", level)])?;
+        let flown = scenario.fly(&(), &Keep::METRICS)?;
+        println!("{level:5}  {:16.4}", flown.metric("position_error_max_m")?);
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use quad_estimation::sensor::SensorError;
 use quad_ndi::{ControllerError, TrajectoryError};
 use sifre::quadrotor::QuadrotorError;
 use sifre::{GridError, ResumeError, ScheduleError, SimulationError, SnapshotError};
+use wpt_optim::ProblemError;
 
 /// Why a scenario can't be read or built.
 #[derive(Debug, thiserror::Error)]
@@ -201,6 +202,38 @@ pub enum ScenarioError {
         /// Whom it follows.
         leader: String,
     },
+    /// A key that can't be set.
+    #[error(transparent)]
+    Key(#[from] KeyError),
+    /// A cost of no station.
+    #[error("optimise.station: {}; the cost is that of a station of the scenario, which has {known}", match wanted {
+        Some(name) => format!("no station is called \"{name}\""),
+        None => "name one".to_owned(),
+    })]
+    NoStation {
+        /// The name in the file, if there is one.
+        wanted: Option<String>,
+        /// The scenario's stations.
+        known: String,
+    },
+    /// A cost of a station without a quadrotor.
+    #[error(
+        "optimise.quadrotor: \"{quadrotor}\", which \"{station}\" is judged with, is no quadrotor of the scenario"
+    )]
+    NotJudged {
+        /// The station.
+        station: String,
+        /// What it is judged with.
+        quadrotor: String,
+    },
+    /// Weights or limits that no cost can be made of.
+    #[error("the cost of ets \"{station}\": {source}")]
+    Cost {
+        /// The station.
+        station: String,
+        /// Why.
+        source: Box<ProblemError>,
+    },
     /// A quadrotor that can't be.
     #[error(transparent)]
     Quadrotor(#[from] QuadrotorError),
@@ -275,6 +308,12 @@ pub enum KeyError {
         path: String,
         /// The key of the value.
         value: String,
+    },
+    /// A scenario that TOML can't express.
+    #[error("the scenario can't be written as TOML: {message}")]
+    NoToml {
+        /// Why.
+        message: String,
     },
     /// A key that isn't there.
     #[error("`{path}`: there is no `{key}`")]

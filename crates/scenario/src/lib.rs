@@ -1,7 +1,7 @@
 //! Scenario files: what flies, where, how, for how long, as TOML.
 //!
 //! ```
-//! use scenario::{End, Scenario};
+//! use scenario::{End, Keep, Scenario};
 //!
 //! let text = r#"
 //!     name = "a metre up"
@@ -13,11 +13,10 @@
 //!     start = { position_m = [0, 0, -1] }
 //!     reference = { kind = "hold", position_m = [0, 0, -2] }
 //! "#;
-//! let mut flight = Scenario::from_toml_str(text, "example")?.build(&())?.fly()?;
-//! let ending = flight.run(&mut ())?;
-//! assert_eq!(ending.end, End::Done);
-//! let alpha = flight.simulation.published("alpha").expect("it is there");
-//! assert!((alpha.position.z + 2.0).abs() < 1e-3);
+//! let flown = Scenario::from_toml_str(text, "example")?.fly(&(), &Keep::METRICS)?;
+//! assert_eq!(flown.ending.end, End::Done);
+//! assert!(flown.metric("position_error_final_m")? < 1e-3);
+//! assert!(flown.metric("z.settling_time_s")? < 2.5);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -35,26 +34,33 @@
 //!
 //! # From file to flight
 //!
-//! [`Scenario::build`] makes the agents ([`Built`]), [`Built::fly`] puts them into a simulation ([`Flight`]),
-//! [`Flight::run`] runs it and says how it [ended](End). Files that a scenario names are read by whoever implements
-//! [`Files`]: this crate reads and writes nothing. [`set`] changes a key by its path, which is what sweeps and
-//! optimisers do; [`MetricsBox`] sums up a flight in a few numbers.
+//! [`Scenario::fly`] flies a scenario and returns what you want to [keep](Keep) of it: metrics, costs, rows ([`Flown`]). In three steps,
+//! if you attach black boxes of your own or resume a saved run: [`Scenario::build`] makes the agents ([`Built`]), [`Built::start`]
+//! puts them into a simulation ([`Run`]), [`Run::fly`] runs it.
+//!
+//! Files that a scenario names are read by whoever implements [`Files`]: this crate reads and writes nothing. A [`Template`] is a
+//! scenario file that keys are [set](set()) in by their paths, which is what sweeps and optimisers do.
 //!
 //! # What it does not do
 //!
 //! It has no loops or expressions: a family of scenarios is a sweep. It draws nothing.
 
 mod assemble;
+mod cost;
 mod error;
 mod file;
-mod flight;
+mod fly;
 mod key;
 mod library;
 mod metrics;
 mod read;
 mod ready;
+mod run;
+mod step;
+mod template;
 
 pub use assemble::{AgentInfo, AgentKind, Built};
+pub use cost::StationCost;
 pub use error::{EstimatorFault, KeyError, ScenarioError};
 pub use file::{
     Algorithm, AttitudeFile, BoxLimits, Circle, CommandOffset, ControllerFile, ErrorFile, EstimatorFile,
@@ -63,12 +69,15 @@ pub use file::{
     ReferenceFile, Scenario, SensorFile, SensorKind, SensorsFile, SetPoint, StartFile, StopFile, TargetFile,
     TurbulenceFile, VariableFile, WeightsFile, WindFile, WindStep,
 };
-pub use flight::{End, Ending, Flight};
+pub use fly::{Flown, Keep};
 pub use key::{get, set};
 pub use library::{Files, STATIONS, VEHICLES};
-pub use metrics::{Metric, MetricsBox};
+pub use metrics::{Metric, MetricError, MetricsBox};
 pub use read::{Place, Position};
 pub use ready::{READY, ready};
+pub use run::{End, Ending, Run};
+pub use template::{Setting, Template};
+pub use wpt_optim::{Outcome, Pair};
 
 /// The example of the README, compiled and run.
 #[cfg(doctest)]

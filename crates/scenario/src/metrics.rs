@@ -1,12 +1,25 @@
 //! A flight in a few numbers, summed up while it flies.
 //!
-//! ```text
-//! rms error    √(1/N Σ |r − r_d|²)          over the rows; of an estimate √(1/N Σ |r̂ − r|²)
-//! its claim    √(1/N Σ σ_x² + σ_y² + σ_z²)   by the estimator's own standard deviations
-//! energy       Σ ½ (P_k + P_k−1) (t_k − t_k−1)   trapezium
-//! tilt         acos(cos φ cos θ)
-//! ```
+//! | metric of a quadrotor | what |
+//! | --- | --- |
+//! | `position_error_rms_m`, `_max_m`, `_final_m` | distance from the reference, `√(1/N Σ |r − r_d|²)` over the rows, largest, last |
+//! | `tilt_max_deg` | largest `acos(cos φ cos θ)` |
+//! | `height_min_m` | least height above the world's origin |
+//! | `estimate_error_rms_m` | distance of an estimate from the flight, `√(1/N Σ |r̂ − r|²)` |
+//! | `estimate_sd_rms_m` | what its estimator reports, `√(1/N Σ σ_x² + σ_y² + σ_z²)` |
+//! | `x.settling_time_s` (`y`, `z`) | time from the last jump of the set point until the axis stays within 2 % of the step |
+//! | `x.overshoot` | largest excursion beyond the set point, as a fraction of the step |
+//! | `x.steady_state_error_m` | set point minus mean of the last 5 % of the response |
+//!
+//! | metric of a station | what |
+//! | --- | --- |
+//! | `received_energy_j`, `missed_`, `electrical_` | `Σ ½ (P_k + P_k−1) (t_k − t_k−1)`, trapezium |
+//! | `tracked_fraction` | share of the rows in which it tracks |
+//! | `phi` | cost Φ of the power transmission ([`StationCost`](crate::StationCost)) |
+//!
+//! Step metrics exist for axes that are asked to jump, once or for the last time, to a place and stay there.
 
+use crate::step::StepResponse;
 use sifre::black_box::Channel;
 use sifre::{BlackBox, BlackBoxError};
 
@@ -17,6 +30,53 @@ pub struct Metric {
     pub name: String,
     /// The number.
     pub value: f64,
+}
+
+/// Why a flight has no metric of a name.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MetricError {
+    /// There is none of that name.
+    #[error("unknown metric `{name}`; this flight has {known}")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// Those of the flight.
+        known: String,
+    },
+    /// Several agents have it.
+    #[error("several agents have the metric `{name}`; choose one of {candidates}")]
+    Ambiguous {
+        /// The name.
+        name: String,
+        /// Those that it fits.
+        candidates: String,
+    },
+}
+
+/// The metric of a name, or of a name without its agent's where only one agent has it.
+pub(crate) fn find<'a>(metrics: &'a [Metric], name: &str) -> Result<&'a Metric, MetricError> {
+    let exact = |m: &&Metric| m.name == name;
+    let short = |m: &&Metric| m.name.split_once('.').is_some_and(|(_, what)| what == name);
+    let mut found: Vec<&Metric> = metrics.iter().filter(exact).collect();
+    if found.is_empty() {
+        found = metrics.iter().filter(short).collect();
+    }
+    match found[..] {
+        [metric] => Ok(metric),
+        [] => Err(MetricError::Unknown {
+            name: name.to_owned(),
+            known: names(metrics),
+        }),
+        _ => Err(MetricError::Ambiguous {
+            name: name.to_owned(),
+            candidates: names(found),
+        }),
+    }
+}
+
+fn names<'a>(metrics: impl IntoIterator<Item = &'a Metric>) -> String {
+    let names: Vec<&str> = metrics.into_iter().map(|m| m.name.as_str()).collect();
+    names.join(", ")
 }
 
 /// A black box that keeps sums instead of rows.
@@ -40,6 +100,7 @@ struct Quadrotor {
     final_error: f64,
     largest_tilt: f64,
     least_height: f64,
+    steps: [StepResponse; 3],
     estimate: Option<Estimate>,
 }
 
@@ -93,6 +154,15 @@ impl MetricsBox {
                 push(&q.name, "estimate_error_rms_m", (e.squares / rows).sqrt());
                 push(&q.name, "estimate_sd_rms_m", (e.variances / rows).sqrt());
             }
+            for (axis, step) in ["x", "y", "z"].into_iter().zip(&q.steps) {
+                let Some(found) = step.metrics() else {
+                    continue;
+                };
+                let mut push = |what: &str, value| push(&q.name, &format!("{axis}.{what}"), value);
+                push("settling_time_s", found.settling_time_s.unwrap_or(f64::NAN));
+                push("overshoot", found.overshoot);
+                push("steady_state_error_m", found.steady_state_error);
+            }
         }
         for s in &self.stations {
             for ((_, energy), value) in POWERS.iter().zip(s.energies) {
@@ -121,7 +191,7 @@ impl BlackBox for MetricsBox {
     fn record(&mut self, time_ns: u64, row: &[f64]) -> Result<(), BlackBoxError> {
         let time_s = time_ns as f64 * 1e-9;
         let since_s = self.last_s.map(|last| time_s - last);
-        self.quadrotors.iter_mut().for_each(|q| q.add(row));
+        self.quadrotors.iter_mut().for_each(|q| q.add(time_s, row));
         self.stations.iter_mut().for_each(|s| s.add(row, since_s));
         self.last_s = Some(time_s);
         self.rows += 1;
@@ -133,7 +203,7 @@ impl BlackBox for MetricsBox {
     }
 }
 
-/// The greater of two numbers, and none if either is none: what is no number must show.
+/// The greater of two numbers; NaN if either is NaN.
 fn greater(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
@@ -161,6 +231,7 @@ impl Quadrotor {
             final_error: 0.0,
             largest_tilt: 0.0,
             least_height: f64::INFINITY,
+            steps: Default::default(),
             estimate: xyz("estimate.position").zip(xyz("estimate.sd.position")).map(
                 |(position, deviation)| Estimate {
                     position,
@@ -172,7 +243,7 @@ impl Quadrotor {
         })
     }
 
-    fn add(&mut self, row: &[f64]) {
+    fn add(&mut self, time_s: f64, row: &[f64]) {
         let difference = |i: usize| row[self.position[i]] - row[self.reference[i]];
         let square: f64 = (0..3).map(|i| difference(i).powi(2)).sum();
         self.squares += square;
@@ -181,6 +252,9 @@ impl Quadrotor {
         let [roll, pitch] = self.tilt.map(|place| row[place]);
         self.largest_tilt = greater(self.largest_tilt, (roll.cos() * pitch.cos()).acos());
         self.least_height = -greater(-self.least_height, row[self.position[2]]);
+        for (axis, step) in self.steps.iter_mut().enumerate() {
+            step.add(time_s, row[self.position[axis]], row[self.reference[axis]]);
+        }
         if let Some(e) = &mut self.estimate {
             let missed = |i: usize| row[e.position[i]] - row[self.position[i]];
             e.squares += (0..3).map(|i| missed(i).powi(2)).sum::<f64>();

@@ -2,14 +2,32 @@
 
 use crate::error::ScenarioError;
 use crate::file::Scenario;
+use serde::Deserialize;
+use toml::de::{DeTable, Deserializer};
 
 /// Reads a scenario file.
 pub(crate) fn scenario(text: &str, origin: &str) -> Result<Scenario, ScenarioError> {
-    let deserializer = toml::Deserializer::parse(text).map_err(|error| ScenarioError::Syntax {
-        place: Place::of(text, origin, &error),
+    let deserializer = Deserializer::parse(text).map_err(|error| syntax(text, origin, &error))?;
+    typed(text, origin, deserializer)
+}
+
+/// Reads a scenario file, and its keys as they are; the text is parsed once.
+pub(crate) fn scenario_and_table(text: &str, origin: &str) -> Result<(Scenario, toml::Table), ScenarioError> {
+    let parsed = DeTable::parse(text).map_err(|error| syntax(text, origin, &error))?;
+    let scenario = typed(text, origin, Deserializer::from(parsed.clone()))?;
+    let table = toml::Table::deserialize(Deserializer::from(parsed));
+    Ok((scenario, table.map_err(|error| syntax(text, origin, &error))?))
+}
+
+fn syntax(text: &str, origin: &str, error: &toml::de::Error) -> ScenarioError {
+    ScenarioError::Syntax {
+        place: Place::of(text, origin, error),
         message: error.message().to_owned(),
-    })?;
-    serde_path_to_error::deserialize(deserializer).map_err(|error| {
+    }
+}
+
+fn typed(text: &str, origin: &str, from: Deserializer<'_>) -> Result<Scenario, ScenarioError> {
+    serde_path_to_error::deserialize(from).map_err(|error| {
         let place = Place::of(text, origin, error.inner());
         refused(place, &error.path().to_string(), error.inner())
     })

@@ -2,12 +2,11 @@
 
 use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
-use crate::varied::Template;
+use crate::varied;
 use crate::{interrupt, recorder, report};
 use ::animate::{AnimateError, Options, Scene, html};
-use scenario::{AgentInfo, AgentKind, End, Flight};
+use scenario::{AgentInfo, AgentKind, End, Keep, Run};
 use sifre::Recording;
-use sifre::black_box::MemoryBox;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `sifre animate`.
@@ -35,23 +34,16 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     check(arguments, &out)?;
     let (recording, scene, exit) = if is_scenario(&arguments.input) {
         interrupt::listen();
-        let Flown { scene, mut flight } = Flown::ready(&arguments.input)?;
-        let id = flight
-            .simulation
-            .attach(flight.output.step_s, MemoryBox::default())?;
-        let ending = flight.run(&mut interrupt::watch())?;
-        if ending.end != End::Done {
-            report::complain(format!(
-                "note: {} at {} s",
-                ending.report.status, ending.report.time_s
-            ));
+        let Ready { scene, mut run } = Ready::read(&arguments.input)?;
+        let flown = run.fly(&Keep::rows(run.output.step_s), &mut interrupt::watch())?;
+        if flown.ending.end != End::Done {
+            report::complain(format!("note: {}", flown.ending));
         }
-        let memory = flight.simulation.detach::<MemoryBox>(id).and_then(Result::ok);
-        (memory.unwrap_or_default().recording, scene, ending.end.into())
+        (flown.recording, scene, flown.ending.end.into())
     } else {
         let recording = recorded(&arguments.input)?;
         let scene = match &arguments.scenario {
-            Some(path) => Flown::ready(path)?.scene,
+            Some(path) => Ready::read(path)?.scene,
             None => Scene::from_recording(&recording),
         };
         (recording, scene, Exit::Done)
@@ -83,7 +75,7 @@ fn check(arguments: &Arguments, page: &Path) -> Result<(), Failure> {
         None => Some(&arguments.input).filter(|path| is_scenario(path)),
     };
     if let Some(path) = scenario {
-        inputs.extend(disk::inputs(path, &Template::read(path)?.with([])?));
+        inputs.extend(disk::inputs(path, varied::read(path)?.scenario()));
     }
     disk::check_outputs(&inputs, &[page.to_owned()])
 }
@@ -120,17 +112,18 @@ fn recorded(path: &Path) -> Result<Recording, Failure> {
 }
 
 /// A scenario ready to fly, and the looks of its agents.
-struct Flown {
+struct Ready {
     scene: Scene,
-    flight: Flight,
+    run: Run,
 }
 
-impl Flown {
-    fn ready(path: &Path) -> Result<Self, Failure> {
-        let scenario = Template::read(path)?.with([])?;
-        let flight = scenario.build(&Beside::of(path))?.fly()?;
-        let scene = flight.agents.iter().fold(Scene::new(scenario.name), drawn);
-        Ok(Self { scene, flight })
+impl Ready {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let template = varied::read(path)?;
+        let scenario = template.scenario();
+        let run = scenario.build(&Beside::of(path))?.start()?;
+        let scene = run.agents.iter().fold(Scene::new(scenario.name.clone()), drawn);
+        Ok(Self { scene, run })
     }
 }
 

@@ -4,13 +4,12 @@ use crate::exit::{Exit, Failure};
 use crate::new::known;
 use crate::report;
 use quad_dynamics::Vehicle;
-use scenario::{Scenario, VEHICLES};
+use scenario::{Keep, Scenario, VEHICLES};
 use serde_json::json;
 use sifre::black_box::CsvBox;
 use sifre::{ModelQuadrotor, Recording};
 use std::error::Error;
 use std::fs::File;
-use std::time::Instant;
 
 /// Level hover at level 3 in still air, half a second.
 const HOVER: &str = r#"
@@ -88,21 +87,19 @@ fn files() -> Result<String, Box<dyn Error>> {
 
 fn scenarios() -> Result<String, Box<dyn Error>> {
     for (name, text) in known() {
-        Scenario::from_toml_str(text, name)?.build(&())?.fly()?;
+        Scenario::from_toml_str(text, name)?.build(&())?.start()?;
     }
     Ok(format!("{} of them", known().count()))
 }
 
 /// The engine agrees with `u = m g / (4 K_T)`, found without it.
 fn hover() -> Result<String, Box<dyn Error>> {
-    let mut flight = Scenario::from_toml_str(HOVER, "hover")?.build(&())?.fly()?;
-    let begin = Instant::now();
-    let ending = flight.run(&mut ())?;
-    let wall_s = begin.elapsed().as_secs_f64();
+    let mut run = Scenario::from_toml_str(HOVER, "hover")?.build(&())?.start()?;
+    let flown = run.fly(&Keep::NOTHING, &mut ())?;
     let vehicle = Vehicle::qball_x4();
     let weight = vehicle.airframe.mass * vehicle.environment.gravity;
     let expected = weight / (4.0 * vehicle.linear_rotor.thrust_gain);
-    let alpha: &ModelQuadrotor = flight.simulation.agent("alpha").ok_or("the agent is gone")?;
+    let alpha: &ModelQuadrotor = run.simulation.agent("alpha").ok_or("the agent is gone")?;
     let commands = alpha.input().commands;
     if commands
         .iter()
@@ -110,7 +107,7 @@ fn hover() -> Result<String, Box<dyn Error>> {
     {
         return Err(format!("duty is {commands:?}, it should be {expected}").into());
     }
-    let rate = ending.report.time_s / wall_s;
+    let rate = flown.ending.report.time_s / flown.wall_s;
     Ok(format!(
         "{expected:.6}, flown {rate:.0} times faster than real time"
     ))
@@ -120,12 +117,12 @@ fn hover() -> Result<String, Box<dyn Error>> {
 fn recordings() -> Result<String, Box<dyn Error>> {
     let path = std::env::temp_dir().join(format!("sifre-doctor-{}.csv", std::process::id()));
     let write = || -> Result<usize, Box<dyn Error>> {
-        let mut flight = Scenario::from_toml_str(HOVER, "hover")?.build(&())?.fly()?;
-        flight
-            .simulation
-            .attach(flight.output.step_s, CsvBox::new(File::create_new(&path)?))?;
-        flight.run(&mut ())?;
-        flight.simulation.finish_recordings()?;
+        let mut run = Scenario::from_toml_str(HOVER, "hover")?.build(&())?.start()?;
+        let step = run.output.step_s;
+        run.simulation
+            .attach(step, CsvBox::new(File::create_new(&path)?))?;
+        run.fly(&Keep::NOTHING, &mut ())?;
+        run.simulation.finish_recordings()?;
         Ok(Recording::from_csv(File::open(&path)?)?.len())
     };
     let rows = write();

@@ -1,6 +1,6 @@
 //! How the program ends.
 
-use scenario::{End, KeyError, ScenarioError};
+use scenario::{End, MetricError, ScenarioError};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -81,9 +81,9 @@ pub(crate) enum Failure {
     /// A scenario that can't be flown.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// A key of the scenario that can't be changed.
-    #[error(transparent)]
-    Key(#[from] KeyError),
+    /// A metric that the flight doesn't have.
+    #[error("--metric: {0}")]
+    Metric(#[from] MetricError),
     /// An argument that makes no sense.
     #[error("{0}")]
     Usage(String),

@@ -1,6 +1,7 @@
 //! Ctrl-C: the first asks the run to end, so that files are whole; the second ends the program at once.
 
-use crate::exit::Exit;
+use crate::exit::{Exit, Failure};
+use scenario::{Files, Flown, Keep, Scenario};
 use sifre::Progress;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,6 +30,11 @@ pub(crate) fn flow() -> ControlFlow<()> {
     } else {
         ControlFlow::Continue(())
     }
+}
+
+/// Flies a scenario to its end, or until Ctrl-C.
+pub(crate) fn fly(scenario: &Scenario, files: &dyn Files, keep: &Keep) -> Result<Flown, Failure> {
+    Ok(scenario.build(files)?.start()?.fly(keep, &mut watch())?)
 }
 
 /// An observer that ends a run when asked.

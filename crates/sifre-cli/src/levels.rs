@@ -7,7 +7,7 @@
 
 use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
-use crate::varied::{Setting, Template, setting};
+use crate::varied::{self, setting};
 use crate::{drawing, interrupt, model, report};
 use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
@@ -16,12 +16,10 @@ use quad_kinematics::EulerAngles;
 use quad_ndi::Law;
 use quad_plot::figure::Legends;
 use quad_plot::{Figure, Panel, level_name, level_style};
-use scenario::{End, Files, Scenario};
+use scenario::{End, Flown, Keep, Scenario, Setting};
 use serde_json::json;
 use sifre::Recording;
-use sifre::black_box::MemoryBox;
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// Arguments of `sifre levels`.
 #[derive(Debug, clap::Args)]
@@ -39,13 +37,11 @@ pub(crate) struct Arguments {
     settings: Vec<Setting>,
 }
 
-/// The scenario at one level.
-struct Flown {
+/// The scenario flown at one level.
+struct AtLevel {
     level: Level,
-    end: End,
-    status: String,
-    wall_s: f64,
-    recording: Recording,
+    scenario: Scenario,
+    flown: Flown,
 }
 
 /// A quadrotor's difference to the highest level.
@@ -59,7 +55,7 @@ struct Difference {
 
 /// Flies a scenario at all levels.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
-    let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
+    let scenario = varied::read(&arguments.scenario)?.with(&arguments.settings)?;
     model::check(&scenario)?;
     drawing::check(
         arguments.plot.as_deref(),
@@ -71,13 +67,16 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     for level in Level::ALL {
         let laws = model::laws(&scenario, level, arguments.keep_controllers);
         let scenario = model::at(&scenario, level, None, &laws);
-        let flown = fly(&scenario, level, &files)?;
-        let is_interrupted = flown.end == End::Interrupted;
-        flights.push((scenario, flown));
-        if is_interrupted {
+        let flown = interrupt::fly(&scenario, &files, &Keep::rows(scenario.output.step_s))?;
+        if flown.ending.end == End::Interrupted {
             report::complain("error: interrupted");
             return Ok(Exit::Interrupted);
         }
+        flights.push(AtLevel {
+            level,
+            scenario,
+            flown,
+        });
     }
     let agents: Vec<String> = scenario
         .quadrotor
@@ -98,31 +97,13 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
             report::say(format!("drawn: {}\n", path.display()))?;
         }
     }
-    let all_done = flights.iter().all(|(_, flown)| flown.end == End::Done);
+    let all_done = flights.iter().all(|at| at.flown.ending.end == End::Done);
     Ok(if all_done { Exit::Done } else { Exit::Early })
 }
 
-fn fly(scenario: &Scenario, level: Level, files: &dyn Files) -> Result<Flown, Failure> {
-    let mut flight = scenario.build(files)?.fly()?;
-    let id = flight
-        .simulation
-        .attach(flight.output.step_s, MemoryBox::default())?;
-    let begin = Instant::now();
-    let ending = flight.run(&mut interrupt::watch())?;
-    let wall_s = begin.elapsed().as_secs_f64();
-    let memory = flight.simulation.detach::<MemoryBox>(id).and_then(Result::ok);
-    Ok(Flown {
-        level,
-        end: ending.end,
-        status: format!("{} at {} s", ending.report.status, ending.report.time_s),
-        wall_s,
-        recording: memory.unwrap_or_default().recording,
-    })
-}
-
 /// Differences of a quadrotor at each level to the highest, as long as both fly.
-fn differences(flights: &[(Scenario, Flown)], place: usize, agent: &str) -> Vec<Difference> {
-    let Some((_, best)) = flights.last() else {
+fn differences(flights: &[AtLevel], place: usize, agent: &str) -> Vec<Difference> {
+    let Some(AtLevel { flown: best, .. }) = flights.last() else {
         return Vec::new();
     };
     let columns = |recording: &Recording| {
@@ -141,7 +122,11 @@ fn differences(flights: &[(Scenario, Flown)], place: usize, agent: &str) -> Vec<
         })
     };
     let reference = columns(&best.recording);
-    let one = |(scenario, flown): &(Scenario, Flown)| {
+    let one = |AtLevel {
+                   level,
+                   scenario,
+                   flown,
+               }: &AtLevel| {
         let here = columns(&flown.recording);
         let rows = flown.recording.len().min(best.recording.len());
         let position = |k: usize| {
@@ -159,8 +144,8 @@ fn differences(flights: &[(Scenario, Flown)], place: usize, agent: &str) -> Vec<
             (2.0 * (distance / 8.0_f64.sqrt()).min(1.0).asin()).to_degrees()
         };
         Difference {
-            level: flown.level,
-            law: scenario.quadrotor[place].controller.kind.at(flown.level),
+            level: *level,
+            law: scenario.quadrotor[place].controller.kind.at(*level),
             times_s: flown.recording.times_s().take(rows).collect(),
             position_m: (0..rows).map(position).collect(),
             attitude_deg: (0..rows).map(attitude).collect(),
@@ -190,7 +175,7 @@ impl Size {
     }
 }
 
-fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[(Scenario, Flown)]) -> Table {
+fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[AtLevel]) -> Table {
     let mut table = Table::new();
     table.load_style(UTF8_FULL_CONDENSED);
     table.set_header([
@@ -205,7 +190,7 @@ fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[(Scenari
         "end",
     ]);
     for (agent, differences) in agents.iter().zip(differences) {
-        for (difference, (_, flown)) in differences.iter().zip(flights) {
+        for (difference, AtLevel { flown, .. }) in differences.iter().zip(flights) {
             let (position, attitude) = (
                 Size::of(&difference.position_m),
                 Size::of(&difference.attitude_deg),
@@ -219,7 +204,7 @@ fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[(Scenari
                 format!("{:.3}", attitude.rms),
                 format!("{:.3}", attitude.largest),
                 format!("{:.3}", flown.wall_s),
-                flown.status.clone(),
+                flown.ending.to_string(),
             ]);
         }
     }
@@ -229,16 +214,12 @@ fn table(agents: &[String], differences: &[Vec<Difference>], flights: &[(Scenari
     table
 }
 
-fn as_json(
-    agents: &[String],
-    differences: &[Vec<Difference>],
-    flights: &[(Scenario, Flown)],
-) -> serde_json::Value {
+fn as_json(agents: &[String], differences: &[Vec<Difference>], flights: &[AtLevel]) -> serde_json::Value {
     let rows = agents.iter().zip(differences).flat_map(|(agent, differences)| {
         differences
             .iter()
             .zip(flights)
-            .map(move |(difference, (_, flown))| {
+            .map(move |(difference, AtLevel { flown, .. })| {
                 let (position, attitude) = (
                     Size::of(&difference.position_m),
                     Size::of(&difference.attitude_deg),
@@ -252,7 +233,7 @@ fn as_json(
                     "attitude_rms_deg": attitude.rms,
                     "attitude_max_deg": attitude.largest,
                     "wall_s": flown.wall_s,
-                    "end": flown.status,
+                    "end": flown.ending.to_string(),
                 })
             })
     });

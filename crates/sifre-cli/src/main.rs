@@ -11,7 +11,6 @@ mod drawing;
 mod exit;
 mod interrupt;
 mod levels;
-mod measure;
 mod model;
 mod new;
 mod optimise;

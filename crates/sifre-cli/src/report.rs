@@ -1,7 +1,7 @@
 //! What a flight did, for people and for machines.
 
 use crate::exit::{Exit, Failure};
-use scenario::{Ending, Metric};
+use scenario::{Flown, Metric};
 use serde_json::{Map, Value, json};
 use sifre::Event;
 use std::io::Write;
@@ -12,22 +12,12 @@ use std::path::PathBuf;
 pub(crate) struct Report {
     /// Name of the scenario.
     pub(crate) scenario: String,
-    /// How it ended.
-    pub(crate) ending: Ending,
-    /// What happened.
-    pub(crate) events: Vec<Event>,
-    /// The flight in a few numbers.
-    pub(crate) metrics: Vec<Metric>,
-    /// What may surprise.
-    pub(crate) notes: Vec<String>,
+    /// What became of it.
+    pub(crate) flown: Flown,
     /// Where it is recorded.
     pub(crate) output: Option<String>,
     /// Where the flight as it is was saved.
     pub(crate) saved: Option<PathBuf>,
-    /// When it began to be flown, s; not 0 if it went on from a saved one.
-    pub(crate) from_s: f64,
-    /// Time that it took, s.
-    pub(crate) wall_s: f64,
 }
 
 /// Prints a value on standard output.
@@ -58,23 +48,24 @@ pub(crate) fn object(metrics: &[Metric]) -> Value {
 impl Report {
     /// How the program is to end.
     pub(crate) fn exit(&self) -> Exit {
-        self.ending.end.into()
+        self.flown.ending.end.into()
     }
 
     /// For machines.
     pub(crate) fn json(&self) -> Value {
-        let report = &self.ending.report;
+        let flown = &self.flown;
+        let report = &flown.ending.report;
         json!({
             "scenario": self.scenario,
             "end": report.status.to_string(),
             "time_s": report.time_s,
             "agent_steps": report.agent_steps,
-            "wall_s": self.wall_s,
-            "events": self.events,
-            "metrics": object(&self.metrics),
-            "notes": self.notes,
+            "wall_s": flown.wall_s,
+            "events": flown.events,
+            "metrics": object(&flown.metrics),
+            "notes": flown.notes,
             "output": self.output,
-            "from_s": self.from_s,
+            "from_s": flown.from_s,
             "saved": self.saved.as_ref().map(|path| path.display().to_string()),
             "exit_code": self.exit().code(),
         })
@@ -82,21 +73,21 @@ impl Report {
 
     /// For people.
     pub(crate) fn text(&self) -> String {
-        let report = &self.ending.report;
-        let rate = if self.wall_s > 0.0 {
-            (report.time_s - self.from_s) / self.wall_s
+        let flown = &self.flown;
+        let rate = if flown.wall_s > 0.0 {
+            (flown.ending.report.time_s - flown.from_s) / flown.wall_s
         } else {
             0.0
         };
         let mut text = format!(
-            "{}: {} at {} s ({:.3} s of computing, {rate:.0} times real time)\n",
-            self.scenario, report.status, report.time_s, self.wall_s
+            "{}: {} ({:.3} s of computing, {rate:.0} times real time)\n",
+            self.scenario, flown.ending, flown.wall_s
         );
-        for event in &self.events {
+        for event in &flown.events {
             let time_s = event.time_ns as f64 * 1e-9;
             text += &format!("  {time_s:9.3} s  {}\n", in_words(event));
         }
-        for metric in &self.metrics {
+        for metric in &flown.metrics {
             text += &format!("  {:40} {:>12.6}\n", metric.name, metric.value);
         }
         if let Some(output) = &self.output {

@@ -3,14 +3,13 @@
 use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::report::{self, Report};
-use crate::varied::{Setting, Template, setting};
+use crate::varied::{self, setting};
 use crate::{interrupt, recorder, saved};
 use indicatif::{ProgressBar, ProgressStyle};
-use scenario::{Flight, Format, MetricsBox, Scenario};
+use scenario::{End, Flown, Format, Keep, Run, Scenario, Setting};
 use sifre::{Event, Observer, Progress, RunStatus};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// Arguments of `sifre run`.
 #[derive(Debug, clap::Args)]
@@ -41,7 +40,7 @@ pub(crate) struct Arguments {
 
 /// Flies a scenario.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
-    let template = Template::read(&arguments.scenario)?;
+    let template = varied::read(&arguments.scenario)?;
     let mut scenario = template.with(&arguments.settings)?;
     if let Some(out) = &arguments.out {
         scenario.output.path = Some(out.clone());
@@ -58,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     };
     let report = fly(&scenario, arguments, &bar)?;
     bar.finish_and_clear();
-    for note in &report.notes {
+    for note in &report.flown.notes {
         report::complain(format!("note: {note}"));
     }
     if json {
@@ -67,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         report::say(report.text())?;
     }
     if report.exit() != Exit::Done {
-        report::complain(format!("error: {}", report.ending.report.status));
+        report::complain(format!("error: {}", report.flown.ending.report.status));
     }
     Ok(report.exit())
 }
@@ -77,49 +76,39 @@ fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<
     let beside = Beside::of(&arguments.scenario);
     let built = scenario.build(&beside)?;
     check_outputs(scenario, arguments)?;
-    let (selection, mut notes) = (built.selection(), built.notes.clone());
-    let mut flight = match &arguments.resume {
+    let selection = built.selection();
+    let mut run = match &arguments.resume {
         Some(from) => saved::resume(built, from)?,
-        None => built.fly()?,
+        None => built.start()?,
     };
     if arguments.resume.is_some() {
-        notes.extend(saved::notes(&flight));
+        let resumed = saved::notes(&run);
+        run.notes.extend(resumed);
     }
-    let (step, path) = (flight.output.step_s, flight.output.path.clone());
+    let (step, path) = (run.output.step_s, run.output.path.clone());
     if let Some(path) = &path {
         if arguments.resume.is_some() {
             saved::leave_alone(Path::new(path))?;
         }
         let format = scenario.output.form().unwrap_or(Format::Csv);
-        recorder::attach(&mut flight.simulation, Path::new(path), format, step, selection)?;
+        recorder::attach(&mut run.simulation, Path::new(path), format, step, selection)?;
     }
-    let metrics = flight
-        .simulation
-        .attach(flight.metrics_step(), MetricsBox::default())?;
-    let (begin, from_s) = (Instant::now(), flight.simulation.now_s());
-    let ending = flight.run(&mut Bar { bar })?;
-    let wall_s = begin.elapsed().as_secs_f64();
-    let metrics = flight.simulation.detach::<MetricsBox>(metrics);
-    let metrics = metrics
-        .and_then(Result::ok)
-        .map_or_else(Vec::new, |m| m.metrics());
-    finish(&mut flight, path.as_deref(), ending.end)?;
-    let diverged = matches!(ending.report.status, RunStatus::Diverged { .. });
+    let mut flown: Flown = run.fly(&Keep::METRICS, &mut Bar { bar })?;
+    finish(&mut run, path.as_deref(), flown.ending.end)?;
+    let diverged = matches!(flown.ending.report.status, RunStatus::Diverged { .. });
     match &arguments.save {
-        Some(to) if diverged => notes.push(format!("{} not written: the flight diverged", to.display())),
-        Some(to) => saved::save(&flight, to)?,
+        Some(to) if diverged => {
+            let note = format!("{} not written: the flight diverged", to.display());
+            flown.notes.push(note);
+        }
+        Some(to) => saved::save(&run, to)?,
         None => {}
     }
     Ok(Report {
         scenario: scenario.name.clone(),
-        ending,
-        events: flight.simulation.events().to_vec(),
-        metrics,
-        notes,
+        flown,
         output: path,
         saved: arguments.save.clone().filter(|_| !diverged),
-        from_s,
-        wall_s,
     })
 }
 
@@ -149,9 +138,9 @@ fn check_outputs(scenario: &Scenario, arguments: &Arguments) -> Result<(), Failu
 }
 
 /// Completes the recording; one that failed before has been told of.
-fn finish(flight: &mut Flight, path: Option<&str>, end: scenario::End) -> Result<(), Failure> {
-    match (flight.simulation.finish_recordings(), path) {
-        (Err(source), Some(path)) if end != scenario::End::RecordingFailed => Err(Failure::Recording {
+fn finish(run: &mut Run, path: Option<&str>, end: End) -> Result<(), Failure> {
+    match (run.simulation.finish_recordings(), path) {
+        (Err(source), Some(path)) if end != End::RecordingFailed => Err(Failure::Recording {
             path: path.into(),
             source,
         }),

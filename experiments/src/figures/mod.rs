@@ -23,7 +23,7 @@ mod photographs;
 
 use appendix_g::table_g_1::escaped;
 pub(crate) use chapter_4::agreement_with_a_recorded_flight;
-pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings, reference_scenario};
+pub(crate) use chapter_6::{claims_of_figure_6_14, flight_settings, path_waypoints};
 
 const CHAPTERS: &[&[Item]] = &[
     photographs::ITEMS,

@@ -7,8 +7,8 @@
 pub(crate) mod panels;
 
 use self::panels::Characterisation;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, ItemError};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::derive::{SteadyRotor, rad_per_s};
 use quad_rotor::{MechanisticRotor, Propeller};

@@ -9,6 +9,7 @@ mod station;
 
 pub(crate) use guidance::Task;
 
+use crate::cost::{self, Judged};
 use crate::error::ScenarioError;
 use crate::file::{OutputFile, Scenario, StopFile};
 use crate::library::Files;
@@ -40,6 +41,8 @@ pub struct Built {
     pub(crate) goals: Vec<Goal>,
     /// What may surprise, in words.
     pub notes: Vec<String>,
+    /// Whose cost Φ can be asked for.
+    pub(crate) judged: Vec<Judged>,
 }
 
 /// Where a quadrotor is to end up.
@@ -88,7 +91,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Anything that can't be: a vehicle that isn't there, a controller above its level, waypoints that go back in time.
-    /// Whether agents look at others that are there is seen by [`Built::fly`].
+    /// Whether agents look at others that are there is seen by [`Built::start`].
     pub fn build(&self, files: &dyn Files) -> Result<Built, ScenarioError> {
         self.check()?;
         let mut built = Built {
@@ -99,6 +102,7 @@ impl Scenario {
             output: self.output.clone(),
             goals: Vec::new(),
             notes: Vec::new(),
+            judged: Vec::new(),
         };
         for file in &self.quadrotor {
             quadrotor::add(&mut built, self, file, files)?;
@@ -123,6 +127,7 @@ impl Scenario {
                 built.notes.push(note);
             }
         }
+        built.judged = cost::judged(self, &built.agents)?;
         Ok(built)
     }
 

@@ -166,7 +166,8 @@ impl AttitudeFile {
 impl ControllerFile {
     /// What its loops are asked to achieve: the defaults of the source's captions where the file is silent, but for the horizontal
     /// loop of an inversion.
-    pub(crate) fn design(&self) -> LoopDesign {
+    #[must_use]
+    pub fn design(&self) -> LoopDesign {
         LoopDesign {
             inversion: Settings {
                 height: self.height.or(LoopSettings::default()),

@@ -59,7 +59,7 @@ pub struct Scenario {
     /// What is recorded, where and how often.
     #[serde(default)]
     pub output: OutputFile,
-    /// What `sifre optimise` is to find; a run ignores it.
+    /// What `sifre optimise` is to find. Other commands take only weights and limits of the cost Φ from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub optimise: Option<OptimiseFile>,
 }

@@ -1,8 +1,9 @@
-//! What `sifre optimise` is to find, in a scenario file. A run ignores it.
+//! What `sifre optimise` is to find, in a scenario file. Of it, other commands only use weights and limits of the cost.
 
 use quad_dynamics::Level;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use wpt_optim::{Penalties, Weights};
 
 /// The keys to decide on, what is good, and how it is searched. The cost is Φ, the time mean of the weighted squares of range, incidence
 /// and spot offset, each over its limit, and of penalties.
@@ -111,6 +112,30 @@ pub enum Algorithm {
     Annealing,
     /// Differential evolution: global, thousands of flights, on all cores.
     Evolution,
+}
+
+impl OptimiseFile {
+    /// Weights of the errors.
+    pub(crate) fn weights(&self) -> Weights {
+        let (file, default) = (&self.weights, Weights::default());
+        Weights {
+            range: file.range.unwrap_or(default.range),
+            incidence: file.incidence.unwrap_or(default.incidence),
+            spot: file.spot.unwrap_or(default.spot),
+        }
+    }
+
+    /// Weights of the penalties, and the least height.
+    pub(crate) fn penalties(&self) -> Penalties {
+        let (file, default) = (&self.weights, Penalties::default());
+        Penalties {
+            lost_target: file.lost_target.unwrap_or(default.lost_target),
+            overfill: file.overfill.unwrap_or(default.overfill),
+            ground: file.ground.unwrap_or(default.ground),
+            saturation: file.saturation.unwrap_or(default.saturation),
+            least_height_m: self.limits.least_height_m.unwrap_or(default.least_height_m),
+        }
+    }
 }
 
 const fn budget() -> u64 {

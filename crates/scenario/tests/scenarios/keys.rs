@@ -34,8 +34,8 @@ fn exact_every_boundary_condition_of_a_pass_is_a_key() {
         set(&mut table, &format!("quadrotor.alpha.reference.{key}"), value).unwrap();
     }
     let scenario = Scenario::from_table(&table, "changed").unwrap();
-    let flight = scenario.build(&()).unwrap().fly().unwrap();
-    let alpha = flight.simulation.published("alpha").unwrap();
+    let run = scenario.build(&()).unwrap().start().unwrap();
+    let alpha = run.simulation.published("alpha").unwrap();
     // It starts as its reference does: position, velocity, nose towards the station at the origin.
     assert_eq!(alpha.position, nalgebra::Vector3::new(5.0, -5.0, -3.0));
     // The velocity goes into body axes and back.

@@ -138,7 +138,7 @@ fn exact_ends() {
 
     let lost = ready("lost-view") + "\n[stop]\nlost_target = true";
     let flown = fly(&lost);
-    let found = flown.flight.simulation.events().last().unwrap();
+    let found = flown.events.last().unwrap();
     assert_eq!(flown.ending.end, End::Early);
     assert_eq!(found.what, sifre::AgentEvent::TargetLost);
     // Seen at the next instant of anyone: the target's step of a millisecond.
@@ -151,7 +151,9 @@ fn prop_the_seed_decides() {
     let noisy = |seed: u64| {
         let ets = "[[ets]]\nname = \"station\"\ntracks = \"alpha\"\ntilt_deg = 20\nheading_deg = 0\nposition_m = [-4, 0, 0]\nnoise_px = 2";
         let text = hover(1, "", ets).replace("name = \"hover\"", &format!("name = \"hover\"\nseed = {seed}"));
-        fly(&text.replace("duration_s = 4.0", "duration_s = 1.0")).recording
+        fly(&text.replace("duration_s = 4.0", "duration_s = 1.0"))
+            .0
+            .recording
     };
     assert_eq!(noisy(1), noisy(1));
     assert_ne!(noisy(1), noisy(2));

@@ -233,13 +233,7 @@ fn exact_the_fixed_target_comes_to_the_middle() {
 #[test]
 fn prop_the_view_is_lost_and_found() {
     let flown = done("lost-view");
-    let events: Vec<_> = flown
-        .flight
-        .simulation
-        .events()
-        .iter()
-        .map(|event| &event.what)
-        .collect();
+    let events: Vec<_> = flown.events.iter().map(|event| &event.what).collect();
     use sifre::AgentEvent::{TargetFound, TargetLost};
     assert_eq!(events.first(), Some(&&TargetFound));
     assert!(events.contains(&&TargetLost), "{events:?}");

@@ -1,8 +1,8 @@
 //! Flying scenarios and looking at them.
 
-use scenario::{Ending, Flight, MetricsBox, Scenario, ScenarioError};
-use sifre::black_box::MemoryBox;
-use sifre::{Recording, StepSize};
+use scenario::{Keep, Scenario, ScenarioError};
+use sifre::StepSize;
+use std::ops::Deref;
 
 /// The text of a ready scenario.
 pub(crate) fn ready(name: &str) -> String {
@@ -10,45 +10,25 @@ pub(crate) fn ready(name: &str) -> String {
     text.to_owned()
 }
 
-/// A scenario flown to its end, and its recording.
-pub(crate) struct Flown {
-    pub(crate) flight: Flight,
-    pub(crate) ending: Ending,
-    pub(crate) recording: Recording,
-    metrics: MetricsBox,
+/// A scenario flown to its end, and what was kept of it.
+pub(crate) struct Flown(pub(crate) scenario::Flown);
+
+impl Deref for Flown {
+    type Target = scenario::Flown;
+
+    fn deref(&self) -> &scenario::Flown {
+        &self.0
+    }
 }
 
 /// Flies a scenario; it is recorded every 10 ms.
 pub(crate) fn fly(text: &str) -> Flown {
     let scenario = Scenario::from_toml_str(text, "test").unwrap_or_else(|error| panic!("{error}"));
-    let built = scenario.build(&()).unwrap_or_else(|error| panic!("{error}"));
-    let mut flight = built.fly().unwrap_or_else(|error| panic!("{error}"));
-    let step = StepSize::from_seconds(0.01).expect("ten milliseconds");
-    let rows = flight
-        .simulation
-        .attach(step, MemoryBox::default())
-        .expect("at the start");
-    let sums = flight
-        .simulation
-        .attach(step, MetricsBox::default())
-        .expect("at the start");
-    let ending = flight.run(&mut ()).expect("a time of the clock");
-    let memory = flight
-        .simulation
-        .detach::<MemoryBox>(rows)
-        .expect("attached")
-        .expect("memory");
-    let metrics = flight
-        .simulation
-        .detach::<MetricsBox>(sums)
-        .expect("attached")
-        .expect("memory");
-    Flown {
-        flight,
-        ending,
-        recording: memory.recording,
-        metrics,
-    }
+    let keep = Keep {
+        rows: Some(StepSize::from_seconds(0.01).expect("ten milliseconds")),
+        ..Keep::METRICS
+    };
+    Flown(scenario.fly(&(), &keep).unwrap_or_else(|error| panic!("{error}")))
 }
 
 impl Flown {
@@ -69,12 +49,11 @@ impl Flown {
         self.column(name)[place.expect("within the flight")]
     }
 
-    /// A metric.
+    /// A metric, whether the flight ended early or not.
     pub(crate) fn metric(&self, name: &str) -> f64 {
-        let all = self.metrics.metrics();
-        let metric = all.iter().find(|metric| metric.name == name);
+        let metric = self.metrics.iter().find(|metric| metric.name == name);
         metric
-            .unwrap_or_else(|| panic!("no metric {name} in {all:?}"))
+            .unwrap_or_else(|| panic!("no metric {name} in {:?}", self.metrics))
             .value
     }
 }
@@ -83,7 +62,7 @@ impl Flown {
 pub(crate) fn refusal(text: &str) -> String {
     let flown = Scenario::from_toml_str(text, "test.toml")
         .and_then(|scenario| scenario.build(&()))
-        .and_then(scenario::Built::fly);
+        .and_then(scenario::Built::start);
     let error: ScenarioError = flown
         .err()
         .unwrap_or_else(|| panic!("this should be refused:\n{text}"));

@@ -13,11 +13,11 @@ mod output;
 
 use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
-use crate::varied::{Setting, Template, setting};
-use crate::{drawing, interrupt, measure, model, report};
+use crate::varied::{self, setting};
+use crate::{drawing, interrupt, model, report};
 use quad_dynamics::{Level, PhenomenonSet};
 use quad_ndi::Law;
-use scenario::{End, Files, Scenario};
+use scenario::{End, Files, Keep, Scenario, Setting};
 use std::path::PathBuf;
 use study::attribution::{Attribution, AttributionError, Parts};
 
@@ -104,7 +104,7 @@ struct Model {
 
 /// Explains the differences between levels.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
-    let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
+    let scenario = varied::read(&arguments.scenario)?.with(&arguments.settings)?;
     model::check(&scenario)?;
     drawing::check(
         arguments.plot.as_deref(),
@@ -231,15 +231,17 @@ impl<'a> Question<'a> {
             return Ok(*value);
         }
         let scenario = model::at(self.scenario, level, Some(phenomena), laws);
-        let measured = measure::fly(&scenario, self.files).map_err(Stop::Failure)?;
-        if measured.end == End::Interrupted {
+        let flown = interrupt::fly(&scenario, self.files, &Keep::METRICS).map_err(Stop::Failure)?;
+        if flown.ending.end == End::Interrupted {
             return Err(Stop::Interrupted);
         }
-        let value = measured.value(self.metric).map_err(Stop::Failure)?;
+        let value = flown
+            .metric(self.metric)
+            .map_err(|error| Stop::Failure(error.into()))?;
         if !value.is_finite() {
             return Err(Stop::Early(format!(
                 "the flight at {level} with {phenomena} has no {}: {}",
-                self.metric, measured.status
+                self.metric, flown.ending
             )));
         }
         self.known.push((model, value));

@@ -9,12 +9,13 @@ mod problem;
 mod state;
 
 use crate::exit::{Exit, Failure};
-use crate::varied::{Setting, setting};
+use crate::varied::setting;
 use crate::{disk, interrupt, report};
 use indicatif::{ProgressBar, ProgressStyle};
 use optim::{Candidate, FAILED_COST, StopReason};
-use problem::{Flown, Keep, Problem};
+use problem::{Flown, Problem};
 use rayon::prelude::*;
+use scenario::{Keep, Setting};
 use state::{Course, Row, State};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -163,7 +164,7 @@ fn step(problem: &Problem, course: &mut Course, most: usize) -> Result<Option<St
     let level = course.level;
     let flown: Vec<Option<Flown>> = batch
         .par_iter()
-        .map(|candidate| problem.fly(&candidate.values, level, Keep::Nothing))
+        .map(|candidate| problem.fly(&candidate.values, level, Keep::COSTS))
         .collect();
     for (candidate, flown) in batch.iter().zip(flown) {
         // What was interrupted is proposed again when the search goes on.

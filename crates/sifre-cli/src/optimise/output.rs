@@ -1,18 +1,18 @@
 //! What an optimisation leaves: the best scenario, the history, pictures, and a report.
 
-use super::problem::{Keep, Problem};
+use super::problem::Problem;
 use super::state::{Course, State, label};
 use crate::exit::Failure;
-use crate::{disk, drawing};
+use crate::{disk, drawing, varied};
 use optim::StopReason;
 use quad_plot::figure::Legends;
 use quad_plot::style::{GREY, Look, Marker};
 use quad_plot::{Figure, Panel, series_style};
+use scenario::{Keep, Outcome, Setting};
 use serde_json::{Value, json};
 use sifre::black_box::CsvBox;
 use sifre::{BlackBox, BlackBoxError, Recording};
 use std::path::Path;
-use wpt_optim::Outcome;
 
 /// What was found.
 pub(super) struct Summary {
@@ -54,7 +54,11 @@ pub(super) fn write(problem: &Problem, state: &State, folder: &Path) -> Result<O
         let Some((best, _)) = course.best() else {
             continue;
         };
-        let Some(flown) = problem.fly(&best.values, course.level, Keep::Recording) else {
+        let keep = Keep {
+            rows: Some(problem.template.scenario().output.step_s),
+            ..Keep::COSTS
+        };
+        let Some(flown) = problem.fly(&best.values, course.level, keep) else {
             return Ok(None);
         };
         let (Some(outcome), Some(recording)) = (flown.outcome, flown.recording) else {
@@ -97,14 +101,11 @@ pub(super) fn write(problem: &Problem, state: &State, folder: &Path) -> Result<O
 fn best_scenario(problem: &Problem, course: &Course, values: &[f64]) -> Result<String, Failure> {
     let mut settings = problem.settings(values);
     for (k, value) in values.iter().enumerate() {
-        settings.push(crate::varied::Setting {
-            key: format!("optimise.variables.{k}.start"),
-            value: toml::Value::Float(*value),
-        });
+        settings.push(Setting::new(format!("optimise.variables.{k}.start"), *value));
     }
     let mut template = problem.template.clone().set(&settings)?;
     if let Some(level) = course.level {
-        template = template.at_level(level)?;
+        template = varied::at_level(template, level)?;
     }
     let table = template.table();
     let text = toml::to_string(table).map_err(|error| Failure::Usage(error.to_string()))?;

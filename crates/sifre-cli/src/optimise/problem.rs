@@ -2,17 +2,15 @@
 
 use crate::disk::{Beside, Remembering};
 use crate::exit::Failure;
-use crate::varied::{Setting, Template};
-use crate::{interrupt, model};
+use crate::{interrupt, model, varied};
 use optim::{Space, Variable};
 use quad_dynamics::Level;
-use scenario::{AgentKind, Built, End, OptimiseFile, Scenario};
-use sifre::black_box::MemoryBox;
-use sifre::{Recording, StepSize};
+use scenario::{
+    End, Keep, KeyError, OptimiseFile, Outcome, Pair, Scenario, ScenarioError, Setting, Template,
+};
+use sifre::Recording;
 use std::collections::BTreeMap;
 use std::path::Path;
-use toml::Value;
-use wpt_optim::{CostBox, Outcome, Pair, Penalties, Span, Weights};
 
 /// The scenario, what is decided on, and what it is judged by.
 pub(super) struct Problem {
@@ -24,7 +22,6 @@ pub(super) struct Problem {
     pub(super) read: BTreeMap<String, String>,
     files: Beside,
     pair: Pair,
-    step: StepSize,
 }
 
 /// A flight that was judged.
@@ -37,25 +34,18 @@ pub(super) struct Flown {
     pub(super) recording: Option<Recording>,
 }
 
-/// Whether a flight is kept.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Keep {
-    Nothing,
-    Recording,
-}
-
 impl Problem {
     /// Reads the problem of a scenario; all that can be wrong is told here, before anything is flown.
     pub(super) fn read(path: &Path, settings: &[Setting]) -> Result<Self, Failure> {
-        let template = Template::read(path)?.set(settings)?;
-        let scenario = template.with([])?;
+        let template = varied::read(path)?.set(settings)?;
+        let scenario = template.scenario();
         let file = scenario.optimise.clone().ok_or_else(|| {
             Failure::Usage(format!(
                 "{}: there is no table [optimise]; `sifre new --from optimise-transmission` has one",
                 path.display()
             ))
         })?;
-        let (pair, step) = pair(&scenario, &file)?;
+        let pair = scenario.optimised_pair()?;
         let variable = |v: &scenario::VariableFile| Variable {
             name: v.key.clone(),
             // Units stand in the keys.
@@ -71,7 +61,6 @@ impl Problem {
             template,
             file,
             pair,
-            step,
         };
         // Names, bounds and starts are the optimisers' to check; a key that doesn't exist shows when the start is built.
         let space = Space::new(problem.variables.clone());
@@ -81,11 +70,8 @@ impl Problem {
         let first = problem.levels().first().copied().flatten();
         let scenario = problem.scenario(&problem.start, first)?;
         let files = Remembering::of(&problem.files);
-        let built = scenario.build(&files)?;
-        let read = files.read.into_inner();
-        problem.cost(&built)?;
-        built.fly()?;
-        problem.read = read;
+        scenario.build(&files)?.start()?;
+        problem.read = files.read.into_inner();
         Ok(problem)
     }
 
@@ -105,10 +91,7 @@ impl Problem {
     /// The keys of a decision.
     pub(super) fn settings(&self, x: &[f64]) -> Vec<Setting> {
         let pairs = self.variables.iter().zip(x);
-        let setting = |(variable, value): (&Variable, &f64)| Setting {
-            key: variable.name.clone(),
-            value: Value::Float(*value),
-        };
+        let setting = |(variable, value): (&Variable, &f64)| Setting::new(&variable.name, *value);
         pairs.map(setting).collect()
     }
 
@@ -117,45 +100,13 @@ impl Problem {
             .template
             .with(&self.settings(x))
             .map_err(|error| match error {
-                Failure::Key(error) => Failure::Usage(format!("optimise.variables: {error}")),
-                other => other,
+                ScenarioError::Key(error) => refused_key(&error),
+                other => other.into(),
             })?;
         Ok(match level {
             Some(level) => model::at(&scenario, level, None, &model::laws(&scenario, level, false)),
             None => scenario,
         })
-    }
-
-    fn cost(&self, built: &Built) -> Result<CostBox, Failure> {
-        let kind = |name: &str| built.agents.iter().find(|a| a.name == name).map(|a| &a.kind);
-        let (Some(AgentKind::Ets { station, .. }), Some(AgentKind::Quadrotor { vehicle, .. })) =
-            (kind(&self.pair.station), kind(&self.pair.quadrotor))
-        else {
-            return Err(Failure::Usage(format!(
-                "optimise: \"{}\" is no station or \"{}\" no quadrotor of the scenario",
-                self.pair.station, self.pair.quadrotor
-            )));
-        };
-        let (mut station, limits) = (station.as_ref().clone(), &self.file.limits);
-        station.limits.range = limits.range_m.unwrap_or(station.limits.range);
-        let incidence = limits.incidence_deg.map(f64::to_radians);
-        station.limits.incidence = incidence.unwrap_or(station.limits.incidence);
-        station.limits.spot = limits.spot_m.unwrap_or(station.limits.spot);
-        let (w, weights, penalties) = (&self.file.weights, Weights::default(), Penalties::default());
-        let weights = Weights {
-            range: w.range.unwrap_or(weights.range),
-            incidence: w.incidence.unwrap_or(weights.incidence),
-            spot: w.spot.unwrap_or(weights.spot),
-        };
-        let penalties = Penalties {
-            lost_target: w.lost_target.unwrap_or(penalties.lost_target),
-            overfill: w.overfill.unwrap_or(penalties.overfill),
-            ground: w.ground.unwrap_or(penalties.ground),
-            saturation: w.saturation.unwrap_or(penalties.saturation),
-            least_height_m: limits.least_height_m.unwrap_or(penalties.least_height_m),
-        };
-        CostBox::new(self.pair.clone(), &station, vehicle, &weights, &penalties)
-            .map_err(|error| Failure::Usage(format!("optimise: {error}")))
     }
 
     /// Flies a decision; nothing if it was interrupted. One that can't be flown has no cost, one that fails on its way a finite one.
@@ -170,68 +121,22 @@ impl Problem {
     }
 
     fn judged(&self, x: &[f64], level: Option<Level>, keep: Keep) -> Result<Option<Flown>, Failure> {
-        let scenario = self.scenario(x, level)?;
-        let built = scenario.build(&self.files)?;
-        let cost = self.cost(&built)?;
-        let mut flight = built.fly()?;
-        let id = flight.simulation.attach(self.step, cost)?;
-        let rows = match keep {
-            Keep::Nothing => None,
-            Keep::Recording => {
-                let step = flight.output.step_s;
-                Some(flight.simulation.attach(step, MemoryBox::default())?)
-            }
-        };
-        let ending = flight.run(&mut interrupt::watch())?;
-        if ending.end == End::Interrupted {
+        let mut flown = interrupt::fly(&self.scenario(x, level)?, &self.files, &keep)?;
+        if flown.ending.end == End::Interrupted {
             return Ok(None);
         }
-        let cost = flight.simulation.detach::<CostBox>(id).and_then(Result::ok);
-        let is_whole = ending.end == End::Done && cost.as_ref().is_some_and(|cost| !cost.has_failed());
-        let span = if is_whole {
-            Span::Recorded
-        } else {
-            Span::Planned(scenario.duration_s)
-        };
-        let rows = rows.and_then(|id| flight.simulation.detach::<MemoryBox>(id)?.ok());
-        let report = &ending.report;
+        let place = flown.costs.iter().position(|cost| cost.pair == self.pair);
+        let cost = place.map(|place| flown.costs.swap_remove(place));
+        let is_complete = cost.as_ref().is_some_and(|cost| cost.is_complete);
         Ok(Some(Flown {
-            outcome: cost.map(|cost| cost.outcome(span)),
-            failure: (!is_whole).then(|| match ending.end {
+            outcome: cost.map(|cost| cost.outcome),
+            failure: (!is_complete).then(|| match flown.ending.end {
                 End::Done => "beyond all limits".to_owned(),
-                _ => format!("{} at {} s", report.status, report.time_s),
+                _ => flown.ending.to_string(),
             }),
-            recording: rows.map(|memory| memory.recording),
+            recording: keep.rows.map(|_| flown.recording),
         }))
     }
-}
-
-/// Whose cost counts, and the station's step.
-fn pair(scenario: &Scenario, file: &OptimiseFile) -> Result<(Pair, StepSize), Failure> {
-    let names: Vec<&str> = scenario.ets.iter().map(|ets| ets.name.as_str()).collect();
-    let wanted = file.station.as_deref();
-    let station = match (wanted, &scenario.ets[..]) {
-        (None, [only]) => Some(only),
-        (None, _) => None,
-        (Some(name), all) => all.iter().find(|ets| ets.name == name),
-    };
-    let station = station.ok_or_else(|| {
-        Failure::Usage(format!(
-            "optimise.station = \"{}\": the cost is that of a station of the scenario, which has {}",
-            wanted.unwrap_or_default(),
-            if names.is_empty() {
-                "none".to_owned()
-            } else {
-                names.join(", ")
-            }
-        ))
-    })?;
-    let quadrotor = file.quadrotor.clone().unwrap_or_else(|| station.tracks.clone());
-    let pair = Pair {
-        quadrotor,
-        station: station.name.clone(),
-    };
-    Ok((pair, station.step_s))
 }
 
 /// Where the search begins.
@@ -250,6 +155,10 @@ fn starts(template: &Template, file: &OptimiseFile) -> Result<Vec<f64>, Failure>
         })
     };
     file.variables.iter().map(start).collect()
+}
+
+fn refused_key(error: &KeyError) -> Failure {
+    Failure::Usage(format!("optimise.variables: {error}"))
 }
 
 fn refused(key: &str, why: &str) -> Failure {

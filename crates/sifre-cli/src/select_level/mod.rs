@@ -9,10 +9,10 @@ use crate::attribute::{self, Question};
 use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::sweep::axes::{self, Axis};
-use crate::varied::{Setting, Template};
-use crate::{drawing, interrupt, measure, model, report};
+use crate::varied;
+use crate::{drawing, interrupt, model, report};
 use quad_dynamics::Level;
-use scenario::{End, Scenario};
+use scenario::{End, Keep, Scenario, Setting};
 use std::path::PathBuf;
 use study::selection::{Answer, Selection, SelectionError, Tolerance, select};
 
@@ -90,7 +90,7 @@ pub(crate) struct Evidence {
 
 /// Selects a level.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
-    let template = Template::read(&arguments.scenario)?;
+    let template = varied::read(&arguments.scenario)?;
     let sizes = arguments.sets.iter().map(|axis| axis.values.len() as u64);
     let cases = sizes
         .chain([arguments.metrics.len() as u64])
@@ -201,25 +201,36 @@ fn fly(arguments: &Arguments, scenarios: &[Scenario], level: Level) -> Result<Op
     for scenario in scenarios {
         let laws = model::laws(scenario, level, arguments.keep_controllers);
         let scenario = model::at(scenario, level, None, &laws);
-        let measured = measure::fly(&scenario, &files)?;
-        if measured.end == End::Interrupted {
+        let flown = interrupt::fly(&scenario, &files, &Keep::METRICS)?;
+        if flown.ending.end == End::Interrupted {
             return Ok(None);
         }
         for metric in &arguments.metrics {
-            values.push(measured.value(metric)?);
-            ends.push((measured.end != End::Done).then(|| measured.status.clone()));
+            values.push(flown.metric(metric)?);
+            ends.push((flown.ending.end != End::Done).then(|| flown.ending.to_string()));
         }
         let mut least = f64::INFINITY;
         for _ in 0..arguments.repeats {
-            let Some(seconds) = measure::price(&scenario, &files)? else {
+            let flown = interrupt::fly(&scenario, &files, &Keep::NOTHING)?;
+            if flown.ending.end == End::Interrupted {
                 return Ok(None);
-            };
-            least = least.min(seconds);
+            }
+            least = least.min(price_of(&flown));
         }
         price += least / scenarios.len() as f64;
     }
     let answer = Answer { level, values, price };
     Ok(Some(Flown { answer, ends }))
+}
+
+/// Seconds of computing per simulated second.
+fn price_of(flown: &scenario::Flown) -> f64 {
+    let flown_s = flown.ending.report.time_s;
+    if flown_s > 0.0 {
+        flown.wall_s / flown_s
+    } else {
+        flown.wall_s
+    }
 }
 
 /// Adds why; nothing if it was interrupted.

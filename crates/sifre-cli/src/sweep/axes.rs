@@ -1,9 +1,10 @@
 //! What is varied: lists and ranges of values, and distributions.
 
-use crate::varied::{Setting, value_of};
+use crate::varied::value_of;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, Normal, Uniform};
+use scenario::Setting;
 use toml::Value;
 
 /// A key and the values that it takes one after the other.

@@ -11,13 +11,13 @@ mod table;
 
 use crate::disk::{self, Beside, Remembering};
 use crate::exit::{Exit, Failure};
-use crate::varied::Template;
+use crate::varied;
 use crate::{interrupt, report};
 use axes::{Axis, Draw};
 use indicatif::{ProgressBar, ProgressStyle};
 use journal::Journal;
 use rayon::prelude::*;
-use scenario::{End, Files, MetricsBox, Scenario};
+use scenario::{End, Files, Keep, Setting, Template};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -160,7 +160,7 @@ impl<'a> Plan<'a> {
         let runs = u64::from(arguments.runs);
         let count = sizes.chain([runs]).try_fold(1_u64, u64::checked_mul);
         let plan = Self {
-            template: Template::read(&arguments.scenario)?,
+            template: varied::read(&arguments.scenario)?,
             axes,
             draws: arguments.normals.iter().chain(&arguments.uniforms).collect(),
             runs,
@@ -193,10 +193,11 @@ impl<'a> Plan<'a> {
             let _ = files.text(name);
         }
         let all = format!(
-            "{:?} {:?} {:?} {:?} runs {} seed {} of {}",
+            "{:?} {:?} {} {:?} {:?} runs {} seed {} of {}",
             self.axes,
             self.draws,
-            self.template,
+            self.template.origin(),
+            self.template.table(),
             files.read.borrow(),
             self.runs,
             self.seed,
@@ -222,7 +223,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The keys of a run.
-    fn settings(&self, run: u64) -> Vec<crate::varied::Setting> {
+    fn settings(&self, run: u64) -> Vec<Setting> {
         let (mut point, draw) = (run / self.runs, run % self.runs);
         let mut settings = Vec::new();
         // The last axis runs fastest.
@@ -267,20 +268,25 @@ impl<'a> Plan<'a> {
     fn fly(&self, run: u64) -> Option<Row> {
         let settings = self.settings(run);
         let inputs = self.inputs(run);
-        let flown = self.template.with(&settings).and_then(|mut scenario| {
-            scenario.seed = scenario.seed.wrapping_add(run % self.runs);
-            fly(&scenario, &self.files)
-        });
+        let flown = self
+            .template
+            .with(&settings)
+            .map_err(Failure::from)
+            .and_then(|mut scenario| {
+                scenario.seed = scenario.seed.wrapping_add(run % self.runs);
+                interrupt::fly(&scenario, &self.files, &Keep::METRICS)
+            });
         match flown {
-            Ok((ending, _)) if ending.end == End::Interrupted => None,
-            Ok((ending, metrics)) => Some(Row {
+            Ok(flown) if flown.ending.end == End::Interrupted => None,
+            Ok(flown) => Some(Row {
                 run,
                 inputs,
-                end: ending.report.status.to_string(),
-                exit_code: Exit::from(ending.end).code(),
-                time_s: Some(ending.report.time_s),
+                end: flown.ending.report.status.to_string(),
+                exit_code: Exit::from(flown.ending.end).code(),
+                time_s: Some(flown.ending.report.time_s),
                 // JSON has no number for what is not finite.
-                metrics: metrics
+                metrics: flown
+                    .metrics
                     .into_iter()
                     .map(|m| (m.name, Some(m.value).filter(|x| x.is_finite())))
                     .collect(),
@@ -295,17 +301,6 @@ impl<'a> Plan<'a> {
             }),
         }
     }
-}
-
-/// Flies a scenario without recording it.
-fn fly(scenario: &Scenario, files: &dyn Files) -> Result<(scenario::Ending, Vec<scenario::Metric>), Failure> {
-    let mut flight = scenario.build(files)?.fly()?;
-    let id = flight
-        .simulation
-        .attach(flight.metrics_step(), MetricsBox::default())?;
-    let ending = flight.run(&mut interrupt::watch())?;
-    let metrics = flight.simulation.detach::<MetricsBox>(id).and_then(Result::ok);
-    Ok((ending, metrics.map_or_else(Vec::new, |metrics| metrics.metrics())))
 }
 
 /// So many threads, or as many as there are cores.

@@ -9,6 +9,7 @@ use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 use toml::Value;
@@ -74,22 +75,29 @@ fn columns(keys: &[String], rows: &[Row]) -> Vec<Column> {
     all.push(column("exit_code", whole(|row| row.exit_code.into())));
     let times = rows.iter().map(|row| row.time_s.unwrap_or(f64::NAN));
     all.push(column("time_s", Values::Numbers(times.collect())));
-    // Every run that was flown has the same metrics.
-    let names = rows
-        .iter()
-        .find(|row| !row.metrics.is_empty())
-        .map(|row| &row.metrics);
-    for (name, _) in names.into_iter().flatten() {
+    for name in metrics(rows) {
         let one = |row: &Row| {
             row.metrics
                 .iter()
-                .find(|(other, _)| other == name)
+                .find(|(other, _)| *other == name)
                 .and_then(|(_, value)| *value)
         };
         let values = rows.iter().map(|row| one(row).unwrap_or(f64::NAN));
-        all.push(column(name, Values::Numbers(values.collect())));
+        all.push(column(&name, Values::Numbers(values.collect())));
     }
     all
+}
+
+/// The metrics of all runs: those of a step exist only where the set point jumps, so that runs may differ in them.
+fn metrics(rows: &[Row]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    let mut known = HashSet::new();
+    for (name, _) in rows.iter().flat_map(|row| &row.metrics) {
+        if known.insert(name) {
+            names.push(name.clone());
+        }
+    }
+    names
 }
 
 /// The values of a key: numbers if all are, texts otherwise.

@@ -10,9 +10,8 @@ mod statistics;
 
 use crate::disk::Beside;
 use crate::exit::{Exit, Failure};
-use crate::measure::{self, Measured};
 use crate::sweep::{MOST_RUNS, check_count, progress_bar, threads};
-use crate::varied::{Setting, Template, setting};
+use crate::varied::{self, setting};
 use crate::{interrupt, report};
 use indicatif::ProgressBar;
 use quad_dynamics::UncertainVehicle;
@@ -22,7 +21,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
-use scenario::{End, Files, Scenario};
+use scenario::{End, Files, Flown, Keep, Scenario, Setting};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use study::sensitivity;
@@ -62,24 +61,24 @@ pub(crate) struct Arguments {
 /// Carries standard errors to a flight's numbers.
 pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     check_count(Some(arguments.runs.into()), arguments.most_runs)?;
-    let scenario = Template::read(&arguments.scenario)?.with(&arguments.settings)?;
+    let scenario = varied::read(&arguments.scenario)?.with(&arguments.settings)?;
     let ensemble = Ensemble::of(scenario, Beside::of(&arguments.scenario), arguments.seed)?;
     let pool = threads(arguments.jobs)?;
     interrupt::listen();
-    let nominal = measure::fly(&ensemble.scenario, &ensemble.files)?;
-    match nominal.end {
+    let nominal = interrupt::fly(&ensemble.scenario, &ensemble.files, &Keep::METRICS)?;
+    match nominal.ending.end {
         End::Done => {}
         End::Interrupted => return Ok(Exit::Interrupted),
         _ => {
             return Err(Failure::Flight(format!(
                 "the nominal flight has to come to its end: {}",
-                nominal.status
+                nominal.ending
             )));
         }
     }
     let jobs = ensemble.jobs(arguments.runs);
     let bar = progress_bar(jobs.len() as u64, 0, json);
-    let flown: Vec<Option<Flown>> =
+    let flown: Vec<Option<Attempt>> =
         pool.install(|| jobs.par_iter().map(|job| ensemble.fly(*job, &bar)).collect());
     bar.finish_and_clear();
     let left = flown.iter().filter(|flown| flown.is_none()).count();
@@ -119,7 +118,7 @@ enum Side {
 }
 
 /// How a flight went: its numbers, or why there was none.
-type Flown = Result<Measured, String>;
+type Attempt = Result<Flown, String>;
 
 /// A scenario and its uncertain vehicles.
 struct Ensemble {
@@ -178,17 +177,17 @@ impl Ensemble {
     }
 
     /// Flies a job; nothing if it was interrupted.
-    fn fly(&self, job: Job, bar: &ProgressBar) -> Option<Flown> {
+    fn fly(&self, job: Job, bar: &ProgressBar) -> Option<Attempt> {
         if interrupt::asked() {
             return None;
         }
         let flown = self.moved(job).and_then(|moved| {
             let plant = Swapped::of(self, &moved);
-            measure::fly(&plant.scenario, &plant).map_err(|failure| failure.to_string())
+            interrupt::fly(&plant.scenario, &plant, &Keep::METRICS).map_err(|failure| failure.to_string())
         });
         bar.inc(1);
         match flown {
-            Ok(measured) if measured.end == End::Interrupted => None,
+            Ok(flown) if flown.ending.end == End::Interrupted => None,
             flown => Some(flown),
         }
     }

@@ -5,9 +5,8 @@
 //! range   the 2.5 % and 97.5 % quantiles, linear between the ordered draws
 //! ```
 
-use super::{Ensemble, Flown, Job, Side};
-use crate::measure::Measured;
-use scenario::End;
+use super::{Attempt, Ensemble, Job, Side};
+use scenario::{End, Flown};
 use study::sensitivity::{self, FirstOrder};
 
 /// What is left out below and above the 95 % range.
@@ -55,8 +54,8 @@ pub(super) struct Spread {
 impl Answer {
     pub(super) fn of(
         ensemble: &Ensemble,
-        nominal: &Measured,
-        flights: impl Iterator<Item = (Job, Option<Flown>)>,
+        nominal: &Flown,
+        flights: impl Iterator<Item = (Job, Option<Attempt>)>,
     ) -> Self {
         let mut answer = Self {
             done: 0,
@@ -65,28 +64,28 @@ impl Answer {
             first_trouble: None,
             metrics: Vec::new(),
         };
-        let mut draws: Vec<Measured> = Vec::new();
-        let mut steps: Vec<[Option<Measured>; 2]> = vec![[None, None]; ensemble.numbers.len()];
-        for (job, flown) in flights.filter_map(|(job, flown)| Some((job, flown?))) {
+        let mut draws: Vec<Flown> = Vec::new();
+        let mut steps: Vec<[Option<Flown>; 2]> = ensemble.numbers.iter().map(|_| [None, None]).collect();
+        for (job, attempt) in flights.filter_map(|(job, attempt)| Some((job, attempt?))) {
             let draw = matches!(job, Job::Draw(_));
-            let trouble = match flown {
-                Ok(measured) if measured.end == End::Done => {
+            let trouble = match attempt {
+                Ok(flown) if flown.ending.end == End::Done => {
                     match job {
-                        Job::Draw(_) => draws.push(measured),
+                        Job::Draw(_) => draws.push(flown),
                         Job::Step {
                             number,
                             side: Side::Up,
-                        } => steps[number][0] = Some(measured),
+                        } => steps[number][0] = Some(flown),
                         Job::Step {
                             number,
                             side: Side::Down,
-                        } => steps[number][1] = Some(measured),
+                        } => steps[number][1] = Some(flown),
                     }
                     continue;
                 }
-                Ok(measured) => {
+                Ok(flown) => {
                     answer.early += usize::from(draw);
-                    measured.status
+                    flown.ending.to_string()
                 }
                 Err(words) => {
                     answer.refused += usize::from(draw);
@@ -113,13 +112,13 @@ impl Answer {
 }
 
 /// A metric of a flight, if it is a number.
-fn value(flight: &Measured, name: &str) -> Option<f64> {
+fn value(flight: &Flown, name: &str) -> Option<f64> {
     let metric = flight.metrics.iter().find(|metric| metric.name == name)?;
     Some(metric.value).filter(|value| value.is_finite())
 }
 
-fn first_order(steps: &[[Option<Measured>; 2]], name: &str) -> Option<FirstOrder> {
-    let effect = |[up, down]: &[Option<Measured>; 2]| {
+fn first_order(steps: &[[Option<Flown>; 2]], name: &str) -> Option<FirstOrder> {
+    let effect = |[up, down]: &[Option<Flown>; 2]| {
         Some(sensitivity::effect(
             value(up.as_ref()?, name)?,
             value(down.as_ref()?, name)?,

@@ -78,7 +78,7 @@ fn exact_rooms_that_are_wrong_exit_with_2() {
     says(
         "evaluations = 4000",
         "evaluations = 0",
-        &["search", "budget of zero"],
+        &["search", "at least one evaluation"],
     );
     says(
         "centre_m = [0.0, 0.0, -1.5]",

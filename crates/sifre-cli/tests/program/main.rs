@@ -3,6 +3,7 @@
 mod bad_input;
 mod cameras;
 mod commands;
+mod figures;
 mod interrupted;
 mod optimise;
 mod outputs;

@@ -144,7 +144,7 @@ fn exact_bad_problems_exit_with_2() {
     );
     refuses(
         &variable(&format!("{key}, lower = 1, upper = 1")),
-        &["x_0_m", "between 1 and 1"],
+        &["x_0_m", "[1, 1]"],
     );
     refuses(
         &variable(&format!("{key}, lower = 6, upper = 9")),

@@ -146,7 +146,7 @@ fn exact_questions_without_an_answer_are_refused() {
         .says(&["finite"]);
     ask(&["--metric", "speed", "--tolerance", "1", "--set", "duration_s=0.1"])
         .exits(2)
-        .says(&["--metric speed", "alpha.position_error_rms_m"]);
+        .says(&["--metric", "`speed`", "alpha.position_error_rms_m"]);
     ask(&["--metric", METRIC, "--tolerance", "1", "--plot", "a.gif"])
         .exits(2)
         .says(&[".svg or .png"]);

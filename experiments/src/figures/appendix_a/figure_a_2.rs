@@ -6,7 +6,6 @@ use super::still::animation;
 use crate::claim::Claim;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
-use quad_dynamics::Level;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -32,24 +31,13 @@ const FACE: Claim = Claim::holds(
 fn worst<'a>(pairs: &[(&'a Pair, Vec<Aim>)], what: impl Fn(&Aim) -> f64 + Copy) -> Vec<(&'a str, f64)> {
     pairs
         .iter()
-        .map(|(pair, aims)| (pair.quadrotor, most(aims, what)))
+        .map(|(pair, aims)| (pair.quadrotor.as_str(), most(aims, what)))
         .collect()
 }
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let pair = |quadrotor, level, station, east| Pair {
-        quadrotor,
-        level,
-        station,
-        position_m: [0.0, east, -1.0],
-    };
-    let flown = Encounter::of(vec![
-        pair("Quad1", Level::One, "ETS1", -2.5),
-        pair("Quad5", Level::Five, "ETS5", 2.5),
-    ])
-    .fly(context)?;
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let flown = Encounter::fly("A.2")?;
     let pairs: Vec<(&Pair, Vec<Aim>)> = flown
-        .encounter
         .pairs
         .iter()
         .map(|pair| Ok((pair, aims(&flown, pair)?)))
@@ -69,7 +57,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         "t=7.2&still=1&station=ETS5",
     )?;
     Ok(Drawing::animation(animation)
-        .scenario(&flown.encounter)?
+        .scenario(flown.file)
         .check(
             POINT,
             points.iter().all(|(_, x)| *x < 1.0),

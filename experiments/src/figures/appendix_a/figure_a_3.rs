@@ -1,6 +1,6 @@
 //! Figure A.3: the view of the camera on the station, with the compass of its direction and inclination.
 
-use super::encounter::{Encounter, ONE};
+use super::encounter::Encounter;
 use super::pointing::{self, aims, most};
 use super::still::animation;
 use crate::claim::Claim;
@@ -27,9 +27,9 @@ const READS: Claim = Claim::holds(
     "once it has settled, direction and inclination of the compass are those of the quadrotor's receiver, to within half its width",
 );
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let flown = Encounter::of(vec![ONE]).fly(context)?;
-    let pair = &flown.encounter.pairs[0];
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let flown = Encounter::fly("A.1")?;
+    let pair = &flown.pairs[0];
     let aims = aims(&flown, pair)?;
     let image = most(&aims, |aim| aim.image);
     let of_half = most(&aims, |aim| {
@@ -39,11 +39,11 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         most(&aims, |aim| aim.bearing_error).to_degrees(),
         most(&aims, |aim| aim.inclination_error).to_degrees(),
     ];
-    let tenth = flown.nominal().camera.pixels[0] / 10.0;
+    let tenth = pair.ets.camera.pixels[0] / 10.0;
     let always = aims.iter().all(|aim| aim.visible);
     let animation = animation(&flown, "View of the camera on the ETS", "t=7.2&still=1&view=ets")?;
     Ok(Drawing::animation(animation)
-        .scenario(&flown.encounter)?
+        .scenario(flown.file)
         .check(
             SEEN,
             always && image < tenth,

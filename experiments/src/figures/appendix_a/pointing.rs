@@ -1,12 +1,12 @@
 //! How well stations point at their quadrotors and quadrotors face their stations, from the recording alone.
 
-use super::encounter::{Flown, Pair};
+use super::encounter::{Encounter, Pair};
 use crate::data::DataTable;
 use crate::item::ItemError;
+use crate::scenarios::column;
 use ets::Aperture;
 use nalgebra::Vector3;
 use quad_kinematics::EulerAngles;
-use sifre::Recording;
 
 /// From when on the station counts as settled, s: ten times the tracker's time constant of 0.2 s.
 const SETTLED_S: f64 = 2.0;
@@ -34,20 +34,20 @@ pub(super) struct Aim {
 }
 
 /// A pair over the whole flight.
-pub(super) fn aims(flown: &Flown, pair: &Pair) -> Result<Vec<Aim>, ItemError> {
+pub(super) fn aims(flown: &Encounter, pair: &Pair) -> Result<Vec<Aim>, ItemError> {
     let column = |agent: &str, channel: &str| column(&flown.recording, &format!("{agent}.{channel}"));
-    let of = |channel: &str| column(pair.quadrotor, channel);
-    let its = |channel: &str| column(pair.station, channel);
+    let of = |channel: &str| column(&pair.quadrotor, channel);
+    let its = |channel: &str| column(&pair.station, channel);
     let position = [of("position.x")?, of("position.y")?, of("position.z")?];
     let attitude = [of("attitude.roll")?, of("attitude.pitch")?, of("attitude.yaw")?];
     let [pan, tilt, heading] = [its("gimbal.pan")?, its("gimbal.tilt")?, its("heading")?];
     let (image, visible) = ([its("image.x")?, its("image.y")?], its("visible")?);
-    let receiver = &flown.nominal().receiver;
+    let receiver = &pair.ets.receiver;
     let half_width = match receiver.aperture {
         Aperture::Disc { radius } => radius,
         Aperture::Rectangle { half_width, .. } => half_width,
     };
-    let origin = Vector3::from(pair.position_m);
+    let origin = Vector3::from(pair.ets.pedestal.position);
     let at = |(k, t): (usize, f64)| {
         let vehicle = Vector3::from(position.each_ref().map(|x| x[k]));
         let [roll, pitch, yaw] = attitude.each_ref().map(|x| x[k]);
@@ -98,8 +98,8 @@ pub(super) fn table(pairs: &[(&Pair, Vec<Aim>)]) -> DataTable {
     for (pair, aims) in pairs {
         for aim in aims.iter().step_by(10) {
             table.push([
-                pair.station.into(),
-                pair.quadrotor.into(),
+                pair.station.as_str().into(),
+                pair.quadrotor.as_str().into(),
                 aim.t.into(),
                 aim.off.to_degrees().into(),
                 aim.half_receiver.to_degrees().into(),
@@ -114,9 +114,4 @@ pub(super) fn table(pairs: &[(&Pair, Vec<Aim>)]) -> DataTable {
 /// An angle within half a turn of zero.
 fn turn(angle: f64) -> f64 {
     angle.sin().atan2(angle.cos())
-}
-
-fn column(recording: &Recording, name: &str) -> Result<Vec<f64>, ItemError> {
-    let found = recording.column(name).map(Iterator::collect);
-    found.ok_or_else(|| ItemError::new(format!("the recording has no channel {name}")))
 }

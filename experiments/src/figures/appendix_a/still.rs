@@ -1,6 +1,6 @@
 //! The animation of a flight and its still.
 
-use super::encounter::Flown;
+use super::encounter::Encounter;
 use crate::drawing::Animation;
 use crate::item::ItemError;
 use animate::{Browser, Options, Size, html};
@@ -13,7 +13,7 @@ const SIZE: Size = Size {
 };
 
 /// The page of a flight, and a still as the address's `hash` asks for it, if there is a browser on this machine.
-pub(super) fn animation(flown: &Flown, title: &str, hash: &str) -> Result<Animation, ItemError> {
+pub(super) fn animation(flown: &Encounter, title: &str, hash: &str) -> Result<Animation, ItemError> {
     let page = html(&flown.recording, &flown.scene(title), &Options::default())?;
     let still = Browser::find().map(|browser| browser.screenshot(&page, hash, SIZE));
     Ok(Animation {

@@ -47,7 +47,7 @@ fn draw(_context: &Context) -> Result<Drawing, ItemError> {
     Ok(Drawing::picture(figure.draw())
         .data(share_table(&seen_before, &seen_after))
         .named_data("cameras", camera_table(&before, &after))
-        .scenario(&settings)?
+        .settings(&settings)?
         .note(format!(
             "Differential evolution: {} evaluations in {:.1} s; stopped: {}.",
             report.evaluations,

@@ -84,7 +84,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let error = (squares / count).sqrt();
     Ok(Drawing::picture(figure.draw())
         .data(data)
-        .scenario(&toml::toml! {
+        .settings(&toml::toml! {
             flight = FLIGHT
             shown_s = [(SHOWN.start), (SHOWN.end)]
         })?

@@ -106,7 +106,7 @@ pub(super) fn curve(subject: &Subject) -> Result<Drawing, ItemError> {
     }
     Ok(drawing
         .data(data(subject, &samples))
-        .scenario(&settings)?
+        .settings(&settings)?
         .check(
             LINEAR,
             linearity.is_straight() && linearity.departure < DEPARTURE_ALLOWED,
@@ -203,5 +203,5 @@ pub(super) fn samples(subject: &Subject) -> Result<Drawing, ItemError> {
     }
     Ok(Drawing::table(shown)
         .data(data(subject, &samples))
-        .scenario(&settings)?)
+        .settings(&settings)?)
 }

@@ -59,7 +59,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let deviation = ((0..points).map(spread).sum::<f64>() / points as f64).sqrt();
     Ok(Drawing::picture(figure.draw())
         .data(data)
-        .scenario(&bench)?
+        .settings(&bench)?
         .check(
             DIFFER,
             deviation > 3.0 * NOISE,

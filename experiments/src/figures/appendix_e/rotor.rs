@@ -47,7 +47,7 @@ pub(super) fn draw(context: &Context, index: usize) -> Result<Drawing, ItemError
     };
     Ok(Drawing::picture(figure.draw())
         .data(panels::table(&found, minimum))
-        .scenario(&bench)?
+        .settings(&bench)?
         .check(
             STATED,
             [thrust, torque].iter().all(|f| f.parameters.iter().all(|k| k.half_width() > 0.0)),

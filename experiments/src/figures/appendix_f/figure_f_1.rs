@@ -1,6 +1,6 @@
 //! Figure F.1: step in x on level 1: frequency ratio varied.
 
-use super::sweep::{self, Varied};
+use super::sweep::{self, Shown, Varied};
 use crate::claim::Claim;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
@@ -21,11 +21,10 @@ const CHANGES: Claim = Claim::holds("the ratio changes the response");
 /// Difference between responses that a reader of the figure can see: a hundredth of the step.
 const VISIBLE_M: f64 = 0.01;
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let varied = Varied::FrequencyRatio;
-    let runs = sweep::fly(context, varied)?;
-    let slow = runs[0].position();
-    let apart = runs[1..]
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let sweep = sweep::fly(Varied::FrequencyRatio)?;
+    let slow = sweep.runs[0].position();
+    let apart = sweep.runs[1..]
         .iter()
         .map(|run| {
             run.position()
@@ -35,22 +34,15 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
                 .fold(0.0, f64::max)
         })
         .fold(f64::INFINITY, f64::min);
-    let labels = ["Position *x*, m", "Pitch *θ*, rad"];
-    let picture = sweep::picture(
-        varied,
-        &runs,
-        labels,
-        [|r| r.flight.position.x, |r| r.flight.attitude.pitch],
-        Some(1.0),
-        5.0,
-    );
-    Ok(Drawing::picture(picture)
-        .data(sweep::table(varied, &runs))
-        .scenario(&sweep::scenario(varied, runs[0].value))?
-        .check(
-            CHANGES,
-            apart > VISIBLE_M,
-            format!("every response is at least {apart:.3} m from that of the smallest ratio"),
-        )
-        .note("the scenario file has the first of the values; the others differ in this one setting"))
+    let shown = Shown {
+        labels: ["Position *x*, m", "Pitch *θ*, rad"],
+        quantities: [|row| row.position.x, |row| row.attitude.pitch],
+        step: Some(1.0),
+        until_s: 5.0,
+    };
+    Ok(sweep.drawing(&shown).check(
+        CHANGES,
+        apart > VISIBLE_M,
+        format!("every response is at least {apart:.3} m from that of the smallest ratio"),
+    ))
 }

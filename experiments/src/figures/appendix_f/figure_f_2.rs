@@ -1,6 +1,6 @@
 //! Figure F.2: inputs of figure F.1.
 
-use super::sweep::{self, Varied};
+use super::sweep::{self, Shown, Varied};
 use crate::claim::Claim;
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
@@ -18,26 +18,18 @@ pub(super) const ITEM: Item = Item {
 
 const LARGER: Claim = Claim::holds("a larger ratio needs larger inputs");
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let varied = Varied::FrequencyRatio;
-    let runs = sweep::fly(context, varied)?;
-    let largest: Vec<f64> = runs.iter().map(sweep::Run::largest_input).collect();
-    let labels = ["Longitudinal *u*_{long}", "Collective *u*_{col}"];
-    let picture = sweep::picture(
-        varied,
-        &runs,
-        labels,
-        [|r| r.pseudo_inputs[2], |r| r.pseudo_inputs[0]],
-        None,
-        3.0,
-    );
-    Ok(Drawing::picture(picture)
-        .data(sweep::table(varied, &runs))
-        .scenario(&sweep::scenario(varied, runs[0].value))?
-        .check(
-            LARGER,
-            largest.is_sorted_by(|a, b| a < b),
-            format!("largest |u_long| for ratios 3, 5, 10, 20: {largest:.3?}"),
-        )
-        .note("the scenario file has the first of the values; the others differ in this one setting"))
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let sweep = sweep::fly(Varied::FrequencyRatio)?;
+    let largest: Vec<f64> = sweep.runs.iter().map(sweep::Run::largest_input).collect();
+    let shown = Shown {
+        labels: ["Longitudinal *u*_{long}", "Collective *u*_{col}"],
+        quantities: [|row| row.pseudo_inputs[2], |row| row.pseudo_inputs[0]],
+        step: None,
+        until_s: 3.0,
+    };
+    Ok(sweep.drawing(&shown).check(
+        LARGER,
+        largest.is_sorted_by(|a, b| a < b),
+        format!("largest |u_long| for ratios 3, 5, 10, 20: {largest:.3?}"),
+    ))
 }

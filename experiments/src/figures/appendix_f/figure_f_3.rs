@@ -1,6 +1,6 @@
 //! Figure F.3: step in x on level 1: attitude damping varied.
 
-use super::sweep::{self, Varied};
+use super::sweep::{self, Shown, Varied};
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 
@@ -15,20 +15,13 @@ pub(super) const ITEM: Item = Item {
     make: Make::Draw(draw),
 };
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let varied = Varied::Damping;
-    let runs = sweep::fly(context, varied)?;
-    let labels = ["Position *x*, m", "Pitch *θ*, rad"];
-    let picture = sweep::picture(
-        varied,
-        &runs,
-        labels,
-        [|r| r.flight.position.x, |r| r.flight.attitude.pitch],
-        Some(1.0),
-        3.0,
-    );
-    Ok(Drawing::picture(picture)
-        .data(sweep::table(varied, &runs))
-        .scenario(&sweep::scenario(varied, runs[0].value))?
-        .note("the scenario file has the first of the values; the others differ in this one setting"))
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let sweep = sweep::fly(Varied::Damping)?;
+    let shown = Shown {
+        labels: ["Position *x*, m", "Pitch *θ*, rad"],
+        quantities: [|row| row.position.x, |row| row.attitude.pitch],
+        step: Some(1.0),
+        until_s: 3.0,
+    };
+    Ok(sweep.drawing(&shown))
 }

@@ -1,6 +1,6 @@
 //! Figure F.4: inputs of figure F.3.
 
-use super::sweep::{self, Varied};
+use super::sweep::{self, Shown, Varied};
 use crate::drawing::Drawing;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 
@@ -15,20 +15,13 @@ pub(super) const ITEM: Item = Item {
     make: Make::Draw(draw),
 };
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let varied = Varied::Damping;
-    let runs = sweep::fly(context, varied)?;
-    let labels = ["Longitudinal *u*_{long}", "Collective *u*_{col}"];
-    let picture = sweep::picture(
-        varied,
-        &runs,
-        labels,
-        [|r| r.pseudo_inputs[2], |r| r.pseudo_inputs[0]],
-        None,
-        1.0,
-    );
-    Ok(Drawing::picture(picture)
-        .data(sweep::table(varied, &runs))
-        .scenario(&sweep::scenario(varied, runs[0].value))?
-        .note("the scenario file has the first of the values; the others differ in this one setting"))
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let sweep = sweep::fly(Varied::Damping)?;
+    let shown = Shown {
+        labels: ["Longitudinal *u*_{long}", "Collective *u*_{col}"],
+        quantities: [|row| row.pseudo_inputs[2], |row| row.pseudo_inputs[0]],
+        step: None,
+        until_s: 1.0,
+    };
+    Ok(sweep.drawing(&shown))
 }

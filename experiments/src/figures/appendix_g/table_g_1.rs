@@ -2,8 +2,8 @@
 
 use crate::data::DataTable;
 use crate::drawing::{DisplayTable, Drawing};
-use crate::flight::NOMINAL_VEHICLE;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::vehicle::NOMINAL_VEHICLE;
 use std::collections::BTreeMap;
 
 /// The table.

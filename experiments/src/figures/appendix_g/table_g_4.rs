@@ -1,15 +1,14 @@
 //! Table G.4: step sizes of the agents, from the engine's declarations, and what halving all of them changes.
 
-use super::crossing::cross;
+use super::crossing::{NAME, cross};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::{DisplayTable, Drawing};
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::scenarios;
 use crate::station::{NOMINAL_STATION, load_station};
 use quad_dynamics::Level;
 use sifre::{Recording, StepSize, steps};
-use std::sync::Arc;
 
 /// The table.
 pub(super) const ITEM: Item = Item {
@@ -45,7 +44,6 @@ fn distance<const N: usize>(a: &Recording, b: &Recording, channels: [&str; N]) -
 }
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let vehicle = Arc::new(load_vehicle(context, NOMINAL_VEHICLE)?);
     let station = load_station(context, NOMINAL_STATION)?;
     let mut shown = DisplayTable::new([
         "Agent",
@@ -58,7 +56,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let (mut worst, mut ratios) = (0.0_f64, Vec::new());
     let milliseconds = |step: StepSize| format!("{}", 1e3 * step.seconds());
     for level in Level::ALL {
-        let runs = [1, 2, 4].map(|refinement| cross(&vehicle, &station, level, refinement));
+        let runs = [1, 2, 4].map(|refinement| cross(level, refinement));
         let [declared, half, quarter] = runs;
         let (declared, half, quarter) = (declared?, half?, quarter?);
         let position = [
@@ -106,6 +104,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let [least, most] = [f64::min, f64::max].map(|f| ratios.iter().copied().reduce(f).unwrap_or(f64::NAN));
     Ok(Drawing::table(shown)
         .data(data)
+        .scenario(scenarios::find(NAME)?)
         .check(
             SMALL,
             worst < limit,

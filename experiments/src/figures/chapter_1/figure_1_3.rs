@@ -2,13 +2,13 @@
 
 use crate::drawing::Drawing;
 use crate::figures::glyphs;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::diagram::{ARROW, Block, GREEN_TINT};
 use crate::plot::sketch::{Eye, Sketch};
 use crate::plot::style::{GREEN, Look};
 use crate::plot::svg::at;
 use crate::station::{NOMINAL_STATION, load_station};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use ets::{Aperture, Ets, Receiver};
 use nalgebra::Vector3;
 use quad_kinematics::EulerAngles;

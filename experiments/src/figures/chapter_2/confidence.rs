@@ -7,8 +7,7 @@
 //! with y the change of velocity (W) and body rates (B) over a step at level 5 and ŷ that of the level from the same body
 //! state under the same commands. Rotor states are the level's own, run open loop from hover.
 
-use crate::figures::flight_settings;
-use crate::flight::{Law, Task};
+use crate::figures::{flight_settings, path_waypoints};
 use crate::item::ItemError;
 use quad_dynamics::{AnyQuadrotor, Level, Resolution, Snapshot, Vehicle};
 use quad_math::FixedStep;
@@ -63,11 +62,8 @@ pub(super) fn of_family(vehicle: &Vehicle) -> Result<Vec<Confidence>, ItemError>
             0.0,
         )
     };
-    let Task::Follow { waypoints } = crate::figures::reference_scenario(Law::C1).task else {
-        return Err(ItemError::new("the reference of figure 6.17 is no trajectory"));
-    };
-    let path = Trajectory::through(&waypoints)?;
-    let mut pilot = AnyController::<f64>::C1(C1::new(vehicle, &flight_settings())?.into());
+    let path = Trajectory::through(&path_waypoints()?)?;
+    let mut pilot = AnyController::<f64>::C1(C1::new(vehicle, &flight_settings()?)?.into());
     let mut truth = hovering(Level::Five)?;
     let mut levels = Level::ALL
         .map(hovering)

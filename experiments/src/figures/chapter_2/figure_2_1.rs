@@ -5,11 +5,11 @@ use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
 use crate::figures::agreement_with_a_recorded_flight;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::figure::Legends;
 use crate::plot::style::Marker;
 use crate::plot::{Figure, Panel, level_name, level_style};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_dynamics::Level;
 
 /// The figure.

@@ -109,7 +109,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     Ok(Drawing::picture(figure.draw())
         .data(DataTable::from_columns(&data))
         .named_data("visibility", by_visibility)
-        .scenario(&toml::toml! { station = "stations/ets.toml" wavelength = "laser.wavelength_m" law = "kim" })?
+        .settings(&toml::toml! { station = "stations/ets.toml" wavelength = "laser.wavelength_m" law = "kim" })?
         .check(
             MONOTONE,
             in_visibility && in_range.iter().all(|&r| r),

@@ -2,12 +2,12 @@
 
 use crate::claim::Claim;
 use crate::drawing::Drawing;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::diagram::{ARROW, CONSTRUCTION, Diagram};
 use crate::plot::sketch::Eye;
 use crate::plot::style::{BLUE, GREY, Look, VERMILION};
 use crate::plot::svg::{Point, at};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use nalgebra::Vector3;
 use quad_dynamics::RotorGeometry;
 use quad_kinematics::{Body, EulerAngles, FrameVector, Rotation, World};

@@ -3,11 +3,11 @@
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::diagram::{BLUE_TINT, Diagram, ORANGE_TINT};
 use crate::plot::style::{BLUE, GREY, INK, Look, VERMILION};
 use crate::plot::svg::{Point, at};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use nalgebra::Vector4;
 use quad_dynamics::{RotorGeometry, Vehicle};
 use quad_rotor::RotorOutput;

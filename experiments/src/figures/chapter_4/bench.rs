@@ -1,7 +1,7 @@
 //! The vehicle on the bench of this chapter.
 
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, ItemError};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_dynamics::Vehicle;
 
 /// Centre of mass of the vehicle on the bench, m along the airframe's axes: the vendor's model has it in the middle, which would

@@ -44,7 +44,7 @@ pub(super) fn draw(context: &Context, quantity: Quantity) -> Result<Drawing, Ite
     let noise = fit.warnings.is_empty();
     Ok(Drawing::picture(figure.draw())
         .data(panels::table(&found, minimum))
-        .scenario(&bench)?
+        .settings(&bench)?
         .check(
             STATED,
             fit.goodness.standard_deviation > 0.0 && fit.parameters.iter().all(|k| k.half_width() > 0.0),

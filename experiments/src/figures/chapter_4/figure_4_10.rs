@@ -4,14 +4,13 @@ use super::identified::Found;
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Law, Scenario, completed, series};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::style::GREY;
 use crate::plot::{Figure, Look, Panel, level_style, reference_style, series_style};
 use crate::rotor_bench::RotorBench;
 use crate::rotor_bench::panels::{DUTY, label, shown};
-use quad_dynamics::Level;
-use quad_ndi::Settings;
+use crate::scenarios::{self, Flights};
+use std::collections::BTreeMap;
 use sysid::rotor_static::Quantity;
 
 /// The figure.
@@ -35,13 +34,19 @@ const EXPLAINS: Claim =
 /// `(1 + ωt) e^(−ωt)` = 2e-9 of its metre left, and the integration's error is smaller still.
 const AGREEMENT: f64 = 1e-3;
 
+/// The vehicle file that the scenario names.
+const VEHICLE: &str = "4.10-vehicle.toml";
+
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let bench = RotorBench::default();
     let vehicle = bench.vehicle(context)?;
     let found = Found::of(&bench, &vehicle, &bench.nominal(&vehicle)?)?;
-    let flight = Scenario::height_step(Law::C1, Settings::default(), 8.0);
-    let log = flight.fly_vehicle(&found.applied(&vehicle), Level::Five)?;
-    let height = series(&log, |r| -r.flight.position.z);
+    let identified = found.applied(&vehicle).to_file("figure 4.10").to_toml();
+    let file = scenarios::find("4.10-flight")?;
+    let files = BTreeMap::from([(VEHICLE.to_owned(), identified.clone())]);
+    let Flights { flights, .. } = Flights::of(&file.scenario()?, &files)?;
+    let flight = &flights[0];
+    let height = flight.series(|row| -row.position.z);
     let reached = height.last().map_or(f64::NAN, |(_, h)| *h);
 
     // Four rotors that give less than the line says: the loop's ω² e must make up for 4 ΔT / m.
@@ -70,7 +75,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     Ok(Drawing::picture(figure.draw())
         .data(table(&bench, &found))
         .named_data("height", heights(&height))
-        .scenario(&bench)?
+        .settings(&bench)?
+        .scenario(file)
+        .file(VEHICLE, identified)
         .check(
             STATED,
             [k_t, k_q, zero].iter().all(|e| e.half_width() > 0.0),
@@ -86,7 +93,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         )
         .check(
             EXPLAINS,
-            completed(&log) && ((1.0 - reached) / predicted - 1.0).abs() < AGREEMENT,
+            flight.is_complete && ((1.0 - reached) / predicted - 1.0).abs() < AGREEMENT,
             format!(
                 "the line is {:+.3} ± {:.3} N off at hover, which predicts {:.4} m below the command; flown: {:.4} m",
                 line.value - weight,

@@ -74,7 +74,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let [thrust, torque] = &responses;
     let drawing = Drawing::picture(figure.draw())
         .data(table(&responses))
-        .scenario(&bench)?
+        .settings(&bench)?
         .check(
             STATED,
             on_step.iter().chain(&[thrust.fit.fit_percent, torque.fit.fit_percent]).all(|p| p.is_finite()),

@@ -85,7 +85,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let missing = forces.iter().sum::<f64>() - weight;
     Ok(Drawing::picture(diagram.finish())
         .data(supports::table(&test.placings[..1]))
-        .scenario(&test.settings)?
+        .settings(&test.settings)?
         // Rounding of newtons and of their moments on arms of 0.35 m.
         .check(
             BALANCE,

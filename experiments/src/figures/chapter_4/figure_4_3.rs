@@ -62,7 +62,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     );
     Ok(Drawing::picture(space.draw())
         .data(supports::table(&test.placings))
-        .scenario(&test.settings)?
+        .settings(&test.settings)?
         // Rounding of coordinates of 0.35 m.
         .check(
             NORMAL,

@@ -57,7 +57,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     }
     Ok(drawing
         .data(supports::table(&test.placings))
-        .scenario(&test.settings)?
+        .settings(&test.settings)?
         .check(
             INSIDE,
             supports::EXPECTED.contains(&share),

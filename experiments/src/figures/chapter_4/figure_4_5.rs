@@ -82,7 +82,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             ("angle_rad", &angles),
             ("fitted_rad", &fit.fitted_rad),
         ]))
-        .scenario(&Settings {
+        .settings(&Settings {
             seed: pendulums::seed(Axis::Yaw, 0),
             rig,
         })?

@@ -88,7 +88,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let p_values = both.map(|i| i.varying.p_value);
     Ok(Drawing::picture(figure.draw())
         .data(table(&rows, &thrust, &torque))
-        .scenario(&toml::toml! {
+        .settings(&toml::toml! {
             measurements = "propellers/apc_sf_10x4.7_static.csv, propellers/apc_sf_10x4.7_advance.csv"
             diameter_m = 0.254
             air_density_kg_m3 = 1.225

@@ -1,8 +1,8 @@
 //! What figures 4.12 and 4.13 share: a Crazyflie identified on the ARPL flights, calibrated on one NanoBench flight, replayed.
 
-use crate::flight::load_vehicle;
 use crate::item::{Context, ItemError};
 use crate::recordings::{arpl, nanobench};
+use crate::vehicle::load_vehicle;
 use quad_dynamics::vehicle::VehicleFile;
 use quad_dynamics::{Level, Vehicle};
 use std::ops::Range;

@@ -44,7 +44,7 @@ pub(super) fn drawing(study: &Study, name: &str) -> Result<Drawing, ItemError> {
                 .with_volatile("bias_share")
                 .with_volatile("samples"),
         )
-        .scenario(&toml::toml! {
+        .settings(&toml::toml! {
             flight = name
             fitted_flight = FITTED
             window_s = [(WINDOW.start), (WINDOW.end)]

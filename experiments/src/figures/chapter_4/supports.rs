@@ -2,10 +2,10 @@
 
 use super::bench;
 use crate::data::{Cell, DataTable};
-use crate::flight::NOMINAL_VEHICLE;
 use crate::item::{Context, ItemError};
 use crate::plot::Space;
 use crate::plot::space::{Point3, View};
+use crate::vehicle::NOMINAL_VEHICLE;
 use nalgebra::Vector3;
 use quad_dynamics::Vehicle;
 use serde::Serialize;

@@ -4,8 +4,8 @@ use super::{bench, pendulums};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::{DisplayTable, Drawing};
-use crate::flight::load_vehicle;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::vehicle::load_vehicle;
 use sysid::estimate::Estimate;
 use sysid::laboratory::pendulum::Axis;
 

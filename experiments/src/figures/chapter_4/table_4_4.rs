@@ -86,7 +86,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     }
     Ok(Drawing::table(shown)
         .data(data)
-        .scenario(&bench)?
+        .settings(&bench)?
         .check(BEST, inside == all, format!("{inside} of {all}"))
         .check(STATED, widest < 0.05, format!("widest half width {:.1} %", 100.0 * widest))
         .note(

@@ -110,7 +110,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .fold((f64::INFINITY, 0.0_f64), |(l, m), e| (l.min(*e), m.max(*e)));
     Ok(Drawing::table(shown)
         .data(data)
-        .scenario(&bench)?
+        .settings(&bench)?
         .check(LINE, inside == all, format!("{inside} of {all}"))
         .check(ABOVE, least > 0.1 && most < 0.3, format!("{least:.3} to {most:.3} N"))
         .check(

@@ -91,7 +91,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     Ok(Drawing::table(shown)
         // Iterated fits: on another platform they end anywhere within Levenberg-Marquardt's own tolerance, far inside an interval.
         .data(data.with_tolerance(1e-3))
-        .scenario(&bench)?
+        .settings(&bench)?
         .check(
             LINEARISED,
             10 * inside >= 9 * pairs().count(),

@@ -3,12 +3,12 @@
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::figures::flight_settings;
-use crate::flight::{Law, Scenario};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::style::Marker;
 use crate::plot::{Figure, Panel, series_style};
-use quad_dynamics::{Feature, Level, PhenomenonSet, Vehicle};
+use crate::scenarios::{self, Flights};
+use quad_dynamics::{Feature, Level, PhenomenonSet};
+use scenario::Scenario;
 use study::attribution::{Attribution, Parts, Share};
 
 /// The figure.
@@ -34,20 +34,19 @@ const ROTOR: Claim =
 const ROUNDING: f64 = 1e-9;
 
 /// Root mean square of the height over the flight, mm: it is asked to stay at zero.
-fn height_error_mm(
-    scenario: &Scenario,
-    vehicle: &Vehicle,
-    level: Level,
-    on: &PhenomenonSet,
-) -> Result<f64, ItemError> {
-    let log = scenario.fly_with(vehicle, level, on)?;
-    let squares = log.records.iter().map(|r| r.flight.position.z.powi(2));
-    Ok(1e3 * (squares.sum::<f64>() / log.records.len() as f64).sqrt())
+fn height_error_mm(scenario: &Scenario, level: Level, on: &PhenomenonSet) -> Result<f64, ItemError> {
+    let mut scenario = scenario.clone();
+    scenario.quadrotor[0].level = level;
+    scenario.quadrotor[0].phenomena = Some(on.clone());
+    let Flights { flights, .. } = Flights::of(&scenario, &())?;
+    let rows = &flights[0].rows;
+    let squares = rows.iter().map(|row| row.position.z.powi(2));
+    Ok(1e3 * (squares.sum::<f64>() / rows.len() as f64).sqrt())
 }
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let scenario = Scenario::position_step(Law::C1, flight_settings(), 12.0);
-    let vehicle = scenario.vehicle(context)?;
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let file = scenarios::find("beyond.1")?;
+    let scenario = file.scenario()?;
     let mut figure = Figure::columns(2).panel_size(330.0, 220.0);
     let mut data = DataTable::new([
         "from_level",
@@ -59,9 +58,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let (mut worst, mut last) = (0.0_f64, None);
     for (lower, upper) in [(Level::Three, Level::Four), (Level::Four, Level::Five)] {
         let parts = Parts::between_levels(lower, upper);
-        let found = parts.attribute(|level, on| {
-            height_error_mm(&scenario, &vehicle, level, on).map_err(|e| Run(e.to_string()))
-        })?;
+        let found = parts
+            .attribute(|level, on| height_error_mm(&scenario, level, on).map_err(|e| Run(e.to_string())))?;
         let sum: f64 = found.shares.iter().map(|s| s.shapley).sum();
         worst = worst.max((sum - found.difference()).abs() / found.top.abs().max(1.0));
         for s in &found.shares {
@@ -87,7 +85,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     );
     Ok(Drawing::picture(figure.draw())
         .data(data)
-        .scenario(&scenario)?
+        .scenario(file)
         .check(
             ADDS_UP,
             worst < ROUNDING,

@@ -7,7 +7,6 @@ mod dynamic_resolution;
 mod figure_5_1;
 mod figure_5_2;
 mod models;
-mod near_and_far;
 mod table_5_1;
 
 /// The items of this chapter.

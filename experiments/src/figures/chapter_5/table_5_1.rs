@@ -3,8 +3,8 @@
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::{DisplayTable, Drawing};
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use nalgebra::Vector3;
 use quad_dynamics::{AnyQuadrotor, Level, Phenomenon, PhenomenonSet, Prerequisite};
 

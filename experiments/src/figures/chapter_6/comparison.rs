@@ -1,149 +1,198 @@
-//! What the comparisons of dynamic inversion and PID share: the tuned gains, pairs of flights, pictures, numbers.
+//! Figures 6.21 to 6.25: dynamic inversion against PID, pairs of flights from one scenario file each.
 
-use super::{paths, settings, steps};
+use super::paths::{self, Path};
+use super::steps::{self, Quantity};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Law, Scenario, completed, series};
-use crate::item::{Context, ItemError};
+use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, Look, Panel, series_style};
-use quad_dynamics::{Level, Phenomenon};
+use crate::plot::{Figure, Look, Panel, reference_style, series_style};
+use crate::scenarios::{self, Flight, Row, ScenarioFile};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_ndi::metrics::StepMetrics;
 use quad_ndi::pid::{self, TuningOptions};
-use quad_ndi::{FlightLog, PidSettings, Record};
-use std::sync::Mutex;
 
-/// The level both controllers fly: the one that neither was designed on.
-pub(super) const FLOWN: Level = Level::Five;
+/// What the figures have in common.
+const PAIR: Item = Item {
+    id: "",
+    title: "",
+    description: "",
+    kind: Kind::Plot,
+    origin: Origin::Simulated,
+    claims: &[],
+    make: Make::NotReproducible("the pattern of a figure"),
+};
 
-/// Gains of this run, tuned once and shared by the five figures.
-static TUNED: Mutex<Option<PidSettings>> = Mutex::new(None);
+/// A step in height.
+pub(super) const FIGURE_6_21: Item = Item {
+    id: "6.21",
+    title: "NDI against PID: step in height",
+    description: "A step of one metre in height on level 5 with limits, under controller c3 and under cascaded PID tuned there \
+                  for the same settling time of 2 s, with a set-point weight of ½ lest its integral overshoot. Above the response; below, on an \
+                  axis of its own, the first second of the collective pseudo-input.",
+    claims: &[AS_TUNED, TUNED],
+    make: Make::Draw(|context| {
+        let drawing = step("6.21", Quantity::Height, "Collective *u*_{col}", 1.0)?;
+        as_in_the_file(context, drawing)
+    }),
+    ..PAIR
+};
 
-/// The PID gains: tuned on the level and with the phenomena and limits that they fly, by the seeded procedure of
-/// `quad_ndi::pid::tune`. PID has no model to be designed from, so it is tuned where it is used.
-pub(super) fn tuned(context: &Context) -> Result<PidSettings, ItemError> {
-    let mut cache = TUNED
-        .lock()
-        .map_err(|_| ItemError::new("the tuning failed in another figure"))?;
-    if let Some(settings) = *cache {
-        return Ok(settings);
-    }
-    let vehicle = crate::flight::load_vehicle(context, crate::flight::NOMINAL_VEHICLE)?;
-    let phenomena = FLOWN
-        .phenomena()
-        .without(Phenomenon::VoltageSag)
-        .with(Phenomenon::InputLimits);
-    let options = TuningOptions {
-        level: FLOWN,
-        phenomena,
-        ..TuningOptions::default()
-    };
-    let settings = pid::tune(&vehicle, &options)?.settings;
-    *cache = Some(settings);
-    Ok(settings)
-}
+/// A step in yaw.
+pub(super) const FIGURE_6_22: Item = Item {
+    id: "6.22",
+    title: "NDI against PID: step in yaw",
+    description: "A step of one radian in heading on level 5 with limits, under controller c3 and under cascaded PID tuned there \
+                  for the same settling time of 2 s, with a set-point weight of ½ lest its integral overshoot. Above the response; below, on an \
+                  axis of its own, the first second of the yaw pseudo-input.",
+    claims: &[AS_TUNED],
+    make: Make::Draw(|_| step("6.22", Quantity::Yaw, "Yaw input *u*_{yaw}", 1.0)),
+    ..PAIR
+};
+
+/// A step in horizontal position.
+pub(super) const FIGURE_6_23: Item = Item {
+    id: "6.23",
+    title: "NDI against PID: step in horizontal position",
+    description: "A step of one metre in *x* on level 5 with limits, under controller c3 and under cascaded PID tuned there \
+                  for the same settling time of 5 s, with a set-point weight of ½ lest its integral overshoot. Above the response; below, on an \
+                  axis of its own, the first two seconds of the longitudinal pseudo-input.",
+    claims: &[AS_TUNED],
+    make: Make::Draw(|_| step("6.23", Quantity::X, "Longitudinal *u*_{long}", 2.0)),
+    ..PAIR
+};
+
+/// The reference trajectory in space.
+pub(super) const FIGURE_6_24: Item = Item {
+    id: "6.24",
+    title: "NDI against PID: following a trajectory",
+    description: "The reference of figure 6.17 on level 5 with limits, under controller c3 with its feed-forward and \
+                  under cascaded PID, which gets position, heading and their first derivatives. Below, the distance from the reference. Grey: projection on the ground.",
+    make: Make::Draw(|_| in_space()),
+    ..PAIR
+};
+
+/// The reference trajectory, outputs and inputs.
+pub(super) const FIGURE_6_25: Item = Item {
+    id: "6.25",
+    title: "NDI against PID: outputs and inputs along a trajectory",
+    description: "The flights of figure 6.24: the four outputs on the left with the reference, the four \
+                  pseudo-inputs on the right. The reference is smooth to its fourth derivative; c3 feeds the fifth forward too, \
+                  which jumps at the waypoints (3, 6, 9 and 12 s), and so do its lateral and longitudinal inputs.",
+    make: Make::Draw(|_| {
+        let pair = Pair::fly(LOOP)?;
+        Ok(Drawing::picture(outputs_and_inputs(&pair))
+            .data(table(&pair, 0.0))
+            .scenario(pair.file))
+    }),
+    ..PAIR
+};
+
+/// PID has been tuned for the settling time that the inversion has by design.
+const AS_TUNED: Claim =
+    Claim::holds("the tuned PID settles within a tenth of the settling time that it was tuned for");
+const TUNED: Claim =
+    Claim::holds("the PID gains of the scenario files are those that the seeded tuning finds");
+
+/// The scenario of the two trajectory figures.
+const LOOP: &str = "6.24";
 
 /// The same flight under both controllers.
 #[derive(Debug)]
-pub(super) struct Pair {
-    /// The scenario of the inversion; PID differs in controller and gains only.
-    pub(super) scenario: Scenario,
-    /// Name, look and log of each.
-    pub(super) flights: [(&'static str, Look, FlightLog); 2],
+struct Pair {
+    file: &'static ScenarioFile,
+    /// Name, look and flight of each.
+    flights: [(&'static str, Look, Flight); 2],
 }
 
-/// Flies a scenario of c3 on level 5 with limits, and the same under PID.
-pub(super) fn fly(context: &Context, ndi: Scenario) -> Result<Pair, ItemError> {
-    let ndi = Scenario {
-        input_limits: true,
-        ..ndi
+impl Pair {
+    fn fly(name: &str) -> Result<Self, ItemError> {
+        let flown = scenarios::fly(name)?;
+        let one = |name, look, agent| -> Result<_, ItemError> {
+            Ok((name, series_style(look), flown.named(agent)?.clone()))
+        };
+        Ok(Self {
+            file: scenarios::find(name)?,
+            flights: [one("NDI (c3)", 0, "ndi")?, one("PID", 1, "pid")?],
+        })
+    }
+}
+
+/// Tunes PID on the level and with the phenomena and limits that it flies, by the seeded procedure of `quad_ndi::pid::tune`, and compares
+/// with the gains of all files. PID has no model to be designed from, so it is tuned where it is used.
+fn as_in_the_file(context: &Context, drawing: Drawing) -> Result<Drawing, ItemError> {
+    let flown = scenarios::fly(LOOP)?;
+    let pid = flown.named("pid")?;
+    let options = TuningOptions {
+        level: pid.level,
+        phenomena: pid.phenomena.clone(),
+        ..TuningOptions::default()
     };
-    let pid = Scenario {
-        controller: Law::Pid,
-        pid: Some(tuned(context)?),
-        ..ndi.clone()
+    let found = pid::tune(&load_vehicle(context, NOMINAL_VEHICLE)?, &options)?.settings;
+    let mut differ = Vec::new();
+    for name in ["6.21", "6.22", "6.23", LOOP] {
+        let scenario = scenarios::find(name)?.scenario()?;
+        let given = scenario
+            .quadrotor
+            .iter()
+            .find_map(|quadrotor| quadrotor.controller.pid);
+        if given != Some(found) {
+            differ.push(name);
+        }
+    }
+    let measured = match differ[..] {
+        [] => "the same to the last digit".to_owned(),
+        _ => format!("others in {}; found {found:?}", differ.join(", ")),
     };
-    let flights = [
-        ("NDI (c3)", series_style(0), ndi.fly(context, FLOWN)?),
-        ("PID", series_style(1), pid.fly(context, FLOWN)?),
-    ];
-    // The scenario file keeps both: the settings of the inversion and the gains of PID.
-    Ok(Pair {
-        scenario: Scenario { pid: pid.pid, ..ndi },
-        flights,
-    })
+    Ok(drawing.check(TUNED, differ.is_empty(), measured))
 }
-
-/// The trajectory of figure 6.17 under both.
-pub(super) fn fly_trajectory(context: &Context) -> Result<Pair, ItemError> {
-    fly(context, paths::scenario(Law::C3))
-}
-
-/// A step under both, with the settings of the other steps.
-pub(super) fn fly_step(
-    context: &Context,
-    step: fn(Law, quad_ndi::Settings, f64) -> Scenario,
-) -> Result<Pair, ItemError> {
-    let scenario = Scenario {
-        record_every: 1,
-        ..step(Law::C3, settings::flight(), 12.0)
-    };
-    fly(context, scenario)
-}
-
-/// What a step's figure shows, and to when.
-pub(super) struct StepShown {
-    /// The quantity that steps.
-    pub(super) response: Shown,
-    /// Its set point.
-    pub(super) set_point: Shown,
-    /// The pseudo-input that drives it.
-    pub(super) input: Shown,
-    /// Settling time that both controllers were designed or tuned for, s.
-    pub(super) designed_s: f64,
-    /// End of the input's time axis, s: it is over sooner than the response.
-    pub(super) input_until_s: f64,
-}
-
-/// PID has been tuned for the settling time that the inversion has by design.
-pub(super) const AS_TUNED: Claim =
-    Claim::holds("the tuned PID settles within a tenth of the settling time that it was tuned for");
 
 /// A step's figure: response, input, data, numbers of both.
-pub(super) fn step_drawing(
-    context: &Context,
-    step: fn(Law, quad_ndi::Settings, f64) -> Scenario,
-    shown: &StepShown,
-) -> Result<Drawing, ItemError> {
-    let pair = fly_step(context, step)?;
-    let (label, value) = shown.response;
-    let mut above = Panel::new("Time *t*, s", label).line(
-        shown.set_point.0,
-        crate::plot::reference_style(),
-        series(&pair.flights[0].2, shown.set_point.1),
+fn step(name: &str, quantity: Quantity, input_label: &str, input_until_s: f64) -> Result<Drawing, ItemError> {
+    let pair = Pair::fly(name)?;
+    let [(_, _, ndi), (_, _, pid)] = &pair.flights;
+    let designed_s = quantity.designed_s(&ndi.settings);
+    let (_, _, input) = quantity.pseudo_input();
+    let mut above = Panel::new("Time *t*, s", quantity.label()).line(
+        "set point",
+        reference_style(),
+        ndi.series(|row| quantity.set_point(row)),
     );
-    let mut below = Panel::new("Time *t*, s", shown.input.0);
-    for (name, look, log) in &pair.flights {
-        above = above.line(*name, *look, series(log, value));
-        let early = series(log, shown.input.1).into_iter();
-        let early = early.take_while(|(t, _)| *t <= shown.input_until_s);
+    let mut below = Panel::new("Time *t*, s", input_label);
+    for (name, look, flight) in &pair.flights {
+        above = above.line(*name, *look, flight.series(|row| quantity.of(row)));
+        let early = flight.series(|row| row.pseudo_inputs[input]).into_iter();
+        let early = early.take_while(|(t, _)| *t <= input_until_s);
         below = below.line(*name, *look, early.collect::<Vec<_>>());
     }
     let figure = Figure::columns(1)
-        .panel(above.x_range(0.0, SHOWN * shown.designed_s))
-        .panel(below.x_range(0.0, shown.input_until_s))
+        .panel(above.x_range(0.0, SHOWN * designed_s))
+        .panel(below.x_range(0.0, input_until_s))
         .panel_size(440.0, 190.0);
-    let settled_s = StepMetrics::of(&series(&pair.flights[1].2, value), 1.0).and_then(|m| m.settling_time_s);
+    let settled_s = StepMetrics::of(&pid.series(|row| quantity.of(row)), 1.0).and_then(|m| m.settling_time_s);
     let drawing = Drawing::picture(figure.draw())
         .data(table(&pair, EARLY_S))
-        .scenario(&pair.scenario)?
+        .scenario(pair.file)
         .check(
             AS_TUNED,
-            settled_s.is_some_and(|t| (t / shown.designed_s - 1.0).abs() < 0.1),
-            format!("{settled_s:.2?} s for {} s", shown.designed_s),
+            settled_s.is_some_and(|t| (t / designed_s - 1.0).abs() < 0.1),
+            format!("{settled_s:.2?} s for {designed_s} s"),
         );
-    Ok(remarks(&pair, value).into_iter().fold(drawing, Drawing::note))
+    Ok(remarks(&pair, quantity).into_iter().fold(drawing, Drawing::note))
+}
+
+/// Figure 6.24.
+fn in_space() -> Result<Drawing, ItemError> {
+    let Pair { file, flights } = Pair::fly(LOOP)?;
+    let paths = flights.map(|(name, look, flight)| Path {
+        column: name.to_owned(),
+        ..Path::new(name.to_owned(), look, flight)
+    });
+    let drawing = Drawing::picture(paths::picture(&paths))
+        .data(paths::table(&paths))
+        .scenario(file);
+    Ok(paths::remarks(&paths).into_iter().fold(drawing, Drawing::note))
 }
 
 /// End of a response's time axis, in designed settling times.
@@ -155,20 +204,48 @@ const EARLY_S: f64 = 1.0;
 /// Time between the rows of data after that, s.
 const ROW_S: f64 = 0.02;
 
-/// A quantity with its axis label.
-pub(super) type Shown = (&'static str, fn(&Record) -> f64);
+/// A quantity.
+type Value = fn(&Row) -> f64;
 
-/// Panels of quantities in columns, row by row.
-pub(super) fn picture(pair: &Pair, columns: usize, shown: &[Shown], reference: &[Option<Shown>]) -> Svg {
-    let mut figure = Figure::columns(columns).share_x().panel_size(320.0, 130.0);
-    for (i, (label, value)) in shown.iter().enumerate() {
-        let mut panel = Panel::new("Time *t*, s", *label);
-        if let Some(Some((name, wanted))) = reference.get(i) {
-            let points = series(&pair.flights[0].2, wanted);
-            panel = panel.line(*name, crate::plot::reference_style(), points);
+/// A quantity with its axis label.
+type Shown = (&'static str, Value);
+
+/// Outputs with their references, and pseudo-inputs, row by row.
+const OUTPUTS_AND_INPUTS: [(Shown, Option<Value>); 8] = [
+    (
+        ("North *x*, m", |row| row.position.x),
+        Some(|row| row.reference.x),
+    ),
+    (("Collective *u*_{col}", |row| row.pseudo_inputs[0]), None),
+    (("East *y*, m", |row| row.position.y), Some(|row| row.reference.y)),
+    (("Lateral *u*_{lat}", |row| row.pseudo_inputs[1]), None),
+    (
+        ("Height −*z*, m", |row| -row.position.z),
+        Some(|row| -row.reference.z),
+    ),
+    (("Longitudinal *u*_{long}", |row| row.pseudo_inputs[2]), None),
+    (("Yaw *ψ*, rad", unwrapped_yaw), Some(|row| row.reference_yaw)),
+    (("Yaw input *u*_{yaw}", |row| row.pseudo_inputs[3]), None),
+];
+
+/// The heading on the reference's turn of the circle, rad.
+fn unwrapped_yaw(row: &Row) -> f64 {
+    use std::f64::consts::TAU;
+    let error = row.reference_yaw - row.attitude.yaw;
+    row.attitude.yaw + (error / TAU).round() * TAU
+}
+
+/// Panels of all quantities in two columns.
+fn outputs_and_inputs(pair: &Pair) -> Svg {
+    let mut figure = Figure::columns(2).share_x().panel_size(320.0, 130.0);
+    for ((label, value), reference) in OUTPUTS_AND_INPUTS {
+        let mut panel = Panel::new("Time *t*, s", label);
+        if let Some(wanted) = reference {
+            let (_, _, first) = &pair.flights[0];
+            panel = panel.line("reference", reference_style(), first.series(wanted));
         }
-        for (name, look, log) in &pair.flights {
-            panel = panel.line(*name, *look, series(log, value));
+        for (name, look, flight) in &pair.flights {
+            panel = panel.line(*name, *look, flight.series(value));
         }
         figure = figure.panel(panel);
     }
@@ -176,7 +253,7 @@ pub(super) fn picture(pair: &Pair, columns: usize, shown: &[Shown], reference: &
 }
 
 /// Columns: controller, time, position, heading, pseudo-inputs; every record to `early_s`, s, then one each 20 ms.
-pub(super) fn table(pair: &Pair, early_s: f64) -> DataTable {
+fn table(pair: &Pair, early_s: f64) -> DataTable {
     let mut table = DataTable::new([
         "controller",
         "t_s",
@@ -189,22 +266,22 @@ pub(super) fn table(pair: &Pair, early_s: f64) -> DataTable {
         "u_long",
         "u_yaw",
     ]);
-    for (name, _, log) in &pair.flights {
+    for (name, _, flight) in &pair.flights {
         let mut next_s = f64::NEG_INFINITY;
-        for r in &log.records {
+        for r in &flight.rows {
             if r.time_s > early_s && r.time_s < next_s {
                 continue;
             }
             // A quarter of the shortest step, lest rounding skip a row.
             next_s = r.time_s + ROW_S - 0.25e-3;
-            let (p, u) = (&r.flight.position, &r.pseudo_inputs);
+            let (p, u) = (&r.position, &r.pseudo_inputs);
             table.push([
                 (*name).into(),
                 r.time_s.into(),
                 p.x.into(),
                 p.y.into(),
                 p.z.into(),
-                r.flight.attitude.yaw.into(),
+                r.attitude.yaw.into(),
                 u[0].into(),
                 u[1].into(),
                 u[2].into(),
@@ -216,12 +293,12 @@ pub(super) fn table(pair: &Pair, early_s: f64) -> DataTable {
 }
 
 /// One sentence on each controller's step.
-pub(super) fn remarks(pair: &Pair, value: fn(&Record) -> f64) -> Vec<String> {
-    let remark = |(name, _, log): &(&'static str, Look, FlightLog)| {
-        if !completed(log) {
-            return format!("{name}: diverged");
+fn remarks(pair: &Pair, quantity: Quantity) -> Vec<String> {
+    let remark = |(name, _, flight): &(&'static str, Look, Flight)| {
+        if !flight.is_complete {
+            return format!("{name}: ended early");
         }
-        StepMetrics::of(&series(log, value), 1.0).map_or_else(String::new, |m| {
+        StepMetrics::of(&flight.series(|row| quantity.of(row)), 1.0).map_or_else(String::new, |m| {
             let settled = m
                 .settling_time_s
                 .map_or("does not settle to 2 %".to_owned(), |t| {

@@ -1,14 +1,14 @@
 //! Figure 6.14: height during the horizontal step of figure 6.13.
 
-use super::settings;
-use super::steps::{self, Outcome, Quantity};
+use super::steps::Quantity;
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Law, Scenario, series};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, Panel, level_name, level_style};
-use quad_dynamics::{Level, Vehicle};
+use crate::scenarios::{self, Flight, Flights};
+use quad_dynamics::Vehicle;
+use std::collections::BTreeMap;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -41,32 +41,32 @@ pub(crate) struct Judged {
     pub(crate) measured: String,
 }
 
-fn scenario() -> Scenario {
-    Scenario::position_step(Law::C1, settings::flight(), 12.0)
-}
-
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let scenario = scenario();
-    let outcomes = steps::fly(context, &scenario, Quantity::X, &Level::ALL)?;
-    let heights: Vec<Vec<(f64, f64)>> = outcomes.iter().map(|o| o.response(Quantity::Height)).collect();
-    let predicted = predicted_offset(&scenario.vehicle(context)?, &scenario)?;
-    let drawing = Drawing::picture(picture(&outcomes, &heights))
-        .data(data(&outcomes, &heights))
-        .scenario(&scenario)?;
-    let judged = judge(&heights, predicted).into_iter();
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let file = scenarios::find("6.14")?;
+    let Flights { flights, .. } = scenarios::fly("6.14")?;
+    let heights = heights(&flights);
+    let drawing = Drawing::picture(picture(&flights, &heights))
+        .data(data(&flights, &heights))
+        .scenario(file);
+    let judged = judge(&heights, predicted_offset(&flights[0])?).into_iter();
     Ok(judged.fold(drawing, |d, j| d.check(j.claim, j.holds, j.measured)))
 }
 
-/// The figure's claims with another vehicle.
-pub(crate) fn claims_of(vehicle: &Vehicle) -> Result<[Judged; 3], ItemError> {
-    let scenario = scenario();
-    let height = |level: Level| -> Result<Vec<(f64, f64)>, ItemError> {
-        Ok(series(&scenario.fly_vehicle(vehicle, level)?, |r| {
-            Quantity::Height.of(r)
-        }))
-    };
-    let heights: Vec<_> = Level::ALL.into_iter().map(height).collect::<Result<_, _>>()?;
-    Ok(judge(&heights, predicted_offset(vehicle, &scenario)?))
+/// The figure's claims with another vehicle, given as the text of its file.
+pub(crate) fn claims_of(vehicle: &str) -> Result<[Judged; 3], ItemError> {
+    const NAME: &str = "another-vehicle.toml";
+    let mut scenario = scenarios::find("6.14")?.scenario()?;
+    for quadrotor in &mut scenario.quadrotor {
+        quadrotor.vehicle = NAME.to_owned();
+    }
+    let files = BTreeMap::from([(NAME.to_owned(), vehicle.to_owned())]);
+    let Flights { flights, .. } = Flights::of(&scenario, &files)?;
+    Ok(judge(&heights(&flights), predicted_offset(&flights[0])?))
+}
+
+fn heights(flights: &[Flight]) -> Vec<Vec<(f64, f64)>> {
+    let height = |flight: &Flight| flight.series(|row| Quantity::Height.of(row));
+    flights.iter().map(height).collect()
 }
 
 fn judge(heights: &[Vec<(f64, f64)>], predicted: f64) -> [Judged; 3] {
@@ -106,11 +106,12 @@ fn judge(heights: &[Vec<(f64, f64)>], predicted: f64) -> [Judged; 3] {
 }
 
 /// Height offset at rest, m: acceleration missing in hover over ω_n², from the static rotor models alone.
-fn predicted_offset(vehicle: &Vehicle, scenario: &Scenario) -> Result<f64, ItemError> {
+fn predicted_offset(flight: &Flight) -> Result<f64, ItemError> {
+    let vehicle: &Vehicle = &flight.vehicle;
     let polynomial = vehicle.require_polynomial_rotor("figure 6.14")?.thrust;
     let voltage = vehicle.require_battery("figure 6.14")?.nominal_voltage;
     let weight_share = vehicle.hover_thrust_per_rotor();
-    let omega = scenario.settings.gains::<f64>()?.height.natural_frequency;
+    let omega = flight.settings.gains::<f64>()?.height.natural_frequency;
     // Which offset e makes the polynomial carry the weight? Demand per rotor is weight + m ω² e / 4.
     let thrust = |demand: f64| {
         let duty = demand / vehicle.linear_rotor.thrust_gain + vehicle.pwm.zero_thrust - vehicle.pwm.minimum;
@@ -130,15 +131,15 @@ fn predicted_offset(vehicle: &Vehicle, scenario: &Scenario) -> Result<f64, ItemE
     Ok(-4.0 * (low - weight_share) / (vehicle.airframe.mass * omega * omega))
 }
 
-fn picture(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> crate::plot::svg::Svg {
+fn picture(flights: &[Flight], heights: &[Vec<(f64, f64)>]) -> crate::plot::svg::Svg {
     let panel = |levels: usize| {
         let empty = Panel::new("Time *t*, s", Quantity::Height.label());
-        outcomes
+        flights
             .iter()
             .zip(heights)
             .take(levels)
-            .fold(empty, |panel, (o, h)| {
-                let number = o.level.number();
+            .fold(empty, |panel, (flight, h)| {
+                let number = flight.level.number();
                 panel.line(level_name(number), level_style(number), h.iter().copied())
             })
     };
@@ -150,10 +151,10 @@ fn picture(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> crate::plot::sv
         .draw()
 }
 
-fn data(outcomes: &[Outcome], heights: &[Vec<(f64, f64)>]) -> DataTable {
-    let names: Vec<String> = outcomes
+fn data(flights: &[Flight], heights: &[Vec<(f64, f64)>]) -> DataTable {
+    let names: Vec<String> = flights
         .iter()
-        .map(|o| format!("height_m_level_{}", o.level.number()))
+        .map(|flight| format!("height_m_level_{}", flight.level.number()))
         .collect();
     let times: Vec<f64> = heights[0].iter().map(|(t, _)| *t).collect();
     let columns: Vec<Vec<f64>> = heights

@@ -4,9 +4,9 @@ use super::paths;
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::Law;
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, Panel, Space, reference_style, series_style};
+use crate::scenarios;
 use quad_ndi::Trajectory;
 
 /// The figure.
@@ -35,7 +35,7 @@ const NEAR_S: f64 = 1e-6;
 const JUMP: f64 = 2e-3;
 
 fn draw(_: &Context) -> Result<Drawing, ItemError> {
-    let trajectory = Trajectory::through(&paths::waypoints())?;
+    let trajectory = Trajectory::through(&paths::waypoints()?)?;
     let times: Vec<f64> = (0..=480).map(|k| f64::from(k) * 0.025).collect();
     let points: Vec<_> = times.iter().map(|&t| trajectory.flat_output(t)).collect();
     let column = |f: fn(&quad_ndi::FlatOutput<f64>) -> f64| points.iter().map(f).collect::<Vec<f64>>();
@@ -79,7 +79,7 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
             ("yaw_rad", &columns[3]),
             ("acceleration_m_s2", &acceleration),
         ]))
-        .scenario(&paths::scenario(Law::C3))?
+        .scenario(scenarios::find("6.18")?)
         .check(
             SMOOTH,
             jump < JUMP,

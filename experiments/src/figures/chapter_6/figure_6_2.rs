@@ -1,14 +1,11 @@
 //! Figure 6.2: closed-loop height on levels 1 to 3, each under its own controller.
 
-use super::settings;
 use super::steps::{self, Quantity};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Law, Scenario};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, Panel, level_name, level_style, reference_style};
-use quad_dynamics::Level;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -31,18 +28,9 @@ const LARGEST_ERROR: f64 = 0.02 * steps::STEP;
 /// End of the time axis, s: rest follows.
 const SHOWN_S: f64 = 3.0;
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let on = |law| Scenario::height_step(law, settings::height(2.0), 5.0);
-    let pairs = [
-        (Law::C1, Level::One),
-        (Law::C2, Level::Two),
-        (Law::C3, Level::Three),
-    ];
-    let mut heights = Vec::new();
-    for (law, level) in pairs {
-        let outcomes = steps::fly(context, &on(law), Quantity::Height, &[level])?;
-        heights.push(outcomes[0].response(Quantity::Height));
-    }
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let flown = steps::fly("6.2", Quantity::Height)?;
+    let heights = flown.responses();
     let times: Vec<f64> = heights[0].iter().map(|(t, _)| *t).collect();
     let columns: Vec<Vec<f64>> = heights
         .iter()
@@ -55,13 +43,9 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .map(|(h3, h1)| h3 - h1)
         .collect();
     let mut above = Panel::new("Time *t*, s", Quantity::Height.label()).horizontal(steps::STEP, "");
-    for (i, (_, level)) in pairs.iter().enumerate() {
-        let number = level.number();
-        above = above.line(
-            level_name(number),
-            level_style(number),
-            heights[i].iter().copied(),
-        );
+    for (outcome, height) in flown.outcomes.iter().zip(&heights) {
+        let number = outcome.number();
+        above = above.line(level_name(number), level_style(number), height.iter().copied());
     }
     let below = Panel::new("Time *t*, s", "Error *e*_{z}, m").line(
         "",
@@ -82,13 +66,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             ("height_m_level_3", &columns[2]),
             ("error_m", &error),
         ]))
-        .scenario(&on(Law::C3))?
+        .scenario(flown.file())
         .check(
             SMALL,
             largest < LARGEST_ERROR,
             format!("largest |e_z| = {largest:.4} m"),
-        )
-        .note(
-            "the scenario file names controller c3; levels 1 and 2 are flown with c1 and c2, all else alike",
         ))
 }

@@ -1,15 +1,11 @@
 //! Figure 6.3: closed-loop horizontal position on levels 1 to 3, each under its own controller.
 
-use super::settings;
 use super::steps::{self, Quantity};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Law, Scenario};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, Panel, level_name, level_style, reference_style};
-use quad_dynamics::Level;
-use quad_ndi::{LoopSettings, Settings};
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -31,34 +27,16 @@ const SMALL: Claim = Claim::holds("e_x stays small: below 10 % of the step");
 /// 0.2/e = 7.4 % of the step, and level 3's extra pole adds a tenth of that.
 const LARGEST_ERROR: f64 = 0.1 * steps::STEP;
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let position = LoopSettings {
-        settling_time_s: 2.0,
-        ..LoopSettings::default()
-    };
-    let on = |law| {
-        Scenario::position_step(
-            law,
-            Settings {
-                position,
-                ..settings::flight()
-            },
-            5.0,
-        )
-    };
-    let omega = on(Law::C1).settings.gains::<f64>()?.position.natural_frequency;
-    let pairs = [
-        (Law::C1, Level::One),
-        (Law::C2, Level::Two),
-        (Law::C3, Level::Three),
-    ];
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let flown = steps::fly("6.3", Quantity::X)?;
+    let gains = flown.outcomes[0].flight.settings.gains::<f64>()?;
+    let omega = gains.position.natural_frequency;
     let mut above = Panel::new("Time *t*, s", Quantity::X.label()).horizontal(steps::STEP, "set point");
     let mut below = Panel::new("Time *t*, s", "Error *e*_{x}, m");
     let (mut names, mut columns, mut largest) = (vec!["t_s".to_owned()], Vec::new(), Vec::new());
-    for (law, level) in pairs {
-        let number = level.number();
-        let outcomes = steps::fly(context, &on(law), Quantity::X, &[level])?;
-        let response = outcomes[0].response(Quantity::X);
+    for outcome in &flown.outcomes {
+        let number = outcome.number();
+        let response = outcome.response(Quantity::X);
         let error: Vec<(f64, f64)> = response
             .iter()
             .map(|&(t, x)| (t, steps::design(omega, t) - x))
@@ -87,13 +65,10 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .panel_size(440.0, 180.0);
     Ok(Drawing::picture(figure.draw())
         .data(DataTable::from_columns(&table))
-        .scenario(&on(Law::C3))?
+        .scenario(flown.file())
         .check(
             SMALL,
             largest.iter().all(|e| *e < LARGEST_ERROR),
             format!("largest |e_x| on levels 1 to 3: {largest:.4?} m"),
-        )
-        .note(
-            "the scenario file names controller c3; levels 1 and 2 are flown with c1 and c2, all else alike",
         ))
 }

@@ -1,14 +1,11 @@
 //! Figure 6.6: phase plane of height, c1 with limits and a settling time of 0.2 s.
 
-use super::settings;
 use super::steps::{self, Quantity};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Law, Scenario, series};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::{Figure, Look, Panel, level_name, level_style};
-use quad_dynamics::Level;
 
 /// The figure.
 pub(super) const ITEM: Item = Item {
@@ -34,20 +31,16 @@ const LAST_S: f64 = 2.0;
 /// Width of the line of what comes before.
 const THIN: f64 = 0.6;
 
-fn draw(context: &Context) -> Result<Drawing, ItemError> {
-    let scenario = Scenario {
-        input_limits: true,
-        record_every: 1,
-        ..Scenario::height_step(Law::C1, settings::height(0.2), FLOWN_S)
-    };
-    let outcomes = steps::fly(context, &scenario, Quantity::Height, &Level::ALL)?;
+fn draw(_: &Context) -> Result<Drawing, ItemError> {
+    let flown = steps::fly("6.6", Quantity::Height)?;
+    let outcomes = &flown.outcomes;
     let mut panel =
         Panel::new(Quantity::Height.label(), "Climb rate *ḣ* = −*ż*, m s^{−1}").vertical(steps::STEP, "");
     let mut ends = Vec::new();
     let mut data = DataTable::new(["level", "t_s", "height_m", "climb_rate_m_s"]);
-    for o in &outcomes {
-        let number = o.level.number();
-        let rate = series(&o.log, |r| -r.flight.velocity.z);
+    for o in outcomes {
+        let number = o.number();
+        let rate = o.flight.series(|row| -row.velocity.z);
         let points: Vec<(f64, f64)> = o
             .response(Quantity::Height)
             .iter()
@@ -70,13 +63,13 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         }
     }
     // Full down: what the line through the zero-thrust command gives at the lowest command.
-    let vehicle = scenario.vehicle(context)?;
+    let vehicle = &outcomes[0].flight.vehicle;
     let pull = -4.0 * vehicle.linear_rotor.thrust_gain * vehicle.zeroed_range().start();
     let brake = vehicle.environment.gravity + pull / vehicle.airframe.mass;
     let saturated: Vec<f64> = outcomes.iter().map(|o| o.effort.saturation_time_s).collect();
     let drawing = Drawing::picture(Figure::columns(1).panel(panel).panel_size(440.0, 330.0).draw())
         .data(data)
-        .scenario(&scenario)?;
+        .scenario(flown.file());
     let drawing = drawing
         .note(format!(
             "height in the last two seconds and in the two before: {}",

@@ -3,65 +3,45 @@
 use crate::item::Item;
 
 pub(crate) use figure_6_14::claims_of as claims_of_figure_6_14;
-pub(crate) use paths::scenario as reference_scenario;
-pub(crate) use paths::waypoints as path_waypoints;
-pub(crate) use settings::flight as flight_settings;
+pub(crate) use paths::{flight_settings, waypoints as path_waypoints};
 
 mod comparison;
 mod figure_6_1;
-mod figure_6_10;
-mod figure_6_11;
-mod figure_6_12;
-mod figure_6_13;
 mod figure_6_14;
-mod figure_6_15;
-mod figure_6_16;
 mod figure_6_17;
-mod figure_6_18;
-mod figure_6_19;
 mod figure_6_2;
-mod figure_6_20;
-mod figure_6_21;
-mod figure_6_22;
-mod figure_6_23;
-mod figure_6_24;
-mod figure_6_25;
 mod figure_6_3;
-mod figure_6_4;
-mod figure_6_5;
 mod figure_6_6;
-mod figure_6_7;
-mod figure_6_8;
-mod figure_6_9;
 mod paths;
-mod settings;
+mod step_figures;
 mod steps;
+mod trajectory_figures;
 
 /// The items of this chapter.
 pub(super) const ITEMS: &[Item] = &[
     figure_6_1::ITEM,
     figure_6_2::ITEM,
     figure_6_3::ITEM,
-    figure_6_4::ITEM,
-    figure_6_5::ITEM,
+    step_figures::FIGURE_6_4,
+    step_figures::FIGURE_6_5,
     figure_6_6::ITEM,
-    figure_6_7::ITEM,
-    figure_6_8::ITEM,
-    figure_6_9::ITEM,
-    figure_6_10::ITEM,
-    figure_6_11::ITEM,
-    figure_6_12::ITEM,
-    figure_6_13::ITEM,
+    step_figures::FIGURE_6_7,
+    step_figures::FIGURE_6_8,
+    step_figures::FIGURE_6_9,
+    step_figures::FIGURE_6_10,
+    step_figures::FIGURE_6_11,
+    step_figures::FIGURE_6_12,
+    step_figures::FIGURE_6_13,
     figure_6_14::ITEM,
-    figure_6_15::ITEM,
-    figure_6_16::ITEM,
+    step_figures::FIGURE_6_15,
+    step_figures::FIGURE_6_16,
     figure_6_17::ITEM,
-    figure_6_18::ITEM,
-    figure_6_19::ITEM,
-    figure_6_20::ITEM,
-    figure_6_21::ITEM,
-    figure_6_22::ITEM,
-    figure_6_23::ITEM,
-    figure_6_24::ITEM,
-    figure_6_25::ITEM,
+    trajectory_figures::FIGURE_6_18,
+    trajectory_figures::FIGURE_6_19,
+    trajectory_figures::FIGURE_6_20,
+    comparison::FIGURE_6_21,
+    comparison::FIGURE_6_22,
+    comparison::FIGURE_6_23,
+    comparison::FIGURE_6_24,
+    comparison::FIGURE_6_25,
 ];

@@ -1,31 +1,32 @@
 //! What the trajectory figures share: the reference, flights along it, their pictures and errors.
 
-use super::settings;
 use crate::data::DataTable;
-use crate::flight::{Law, Scenario, Task, completed};
-use crate::item::{Context, ItemError};
+use crate::item::ItemError;
 use crate::plot::space::View;
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, Look, Panel, Space, reference_style};
-use quad_dynamics::{Level, Vehicle};
-use quad_ndi::{FlightLog, Waypoint};
+use crate::plot::{Figure, Look, Panel, Space, level_name, level_style, reference_style};
+use crate::scenarios::{self, Flight};
+use quad_ndi::{Settings, Waypoint};
+use scenario::ReferenceFile;
+
+/// The file that the reference and the settings of the loops are taken from.
+const NAME: &str = "6.18";
 
 /// The reference: take-off into a climbing left-hand loop that turns the heading once around, and back.
-pub(crate) fn waypoints() -> Vec<Waypoint> {
-    let at = |time_s, position_m, velocity_m_s, yaw_rad| Waypoint {
-        time_s,
-        position_m,
-        velocity_m_s,
-        yaw_rad,
-        yaw_rate_rad_s: 0.0,
-    };
-    vec![
-        at(0.0, [0.0, 0.0, 0.0], [0.0, 0.0, 0.0], 0.0),
-        at(3.0, [2.0, 0.0, -1.0], [0.6, -0.9, -0.2], -0.8),
-        at(6.0, [2.0, -2.5, -2.0], [-0.9, -0.6, -0.2], -2.4),
-        at(9.0, [-0.5, -2.0, -2.2], [-0.6, 0.9, 0.3], -4.2),
-        at(12.0, [0.0, 0.0, -1.0], [0.0, 0.0, 0.0], -std::f64::consts::TAU),
-    ]
+pub(crate) fn waypoints() -> Result<Vec<Waypoint>, ItemError> {
+    let scenario = scenarios::find(NAME)?.scenario()?;
+    match scenario.quadrotor.first().map(|quadrotor| &quadrotor.reference) {
+        Some(ReferenceFile::Waypoints { waypoints }) => Ok(waypoints.iter().map(Waypoint::from).collect()),
+        _ => Err(ItemError::new(format!("{NAME}.toml has no waypoints"))),
+    }
+}
+
+/// What the loops of the flights along the reference are asked for.
+pub(crate) fn flight_settings() -> Result<Settings, ItemError> {
+    let scenario = scenarios::find(NAME)?.scenario()?;
+    let first = scenario.quadrotor.first();
+    let first = first.ok_or_else(|| ItemError::new(format!("{NAME}.toml has no quadrotor")))?;
+    Ok(first.controller.design().inversion)
 }
 
 /// From where the loop is seen open.
@@ -33,37 +34,6 @@ const VIEW: View = View {
     azimuth_deg: -62.0,
     elevation_deg: 40.0,
 };
-
-/// Time flown, s: the trajectory and two seconds to settle.
-const DURATION_S: f64 = 14.0;
-
-/// The scenario of a controller that follows the reference.
-pub(crate) fn scenario(law: Law) -> Scenario {
-    let task = Task::Follow {
-        waypoints: waypoints(),
-    };
-    Scenario {
-        record_every: 10,
-        ..Scenario::new(law, settings::flight(), task, DURATION_S)
-    }
-}
-
-/// The same path in space at the heading of its start.
-pub(super) fn steady_heading(scenario: Scenario) -> Scenario {
-    let ahead = |w: Waypoint| Waypoint { yaw_rad: 0.0, ..w };
-    Scenario {
-        task: Task::Follow {
-            waypoints: waypoints().into_iter().map(ahead).collect(),
-        },
-        ..scenario
-    }
-}
-
-/// Largest distance of a flight from its reference, m.
-pub(super) fn largest_distance(log: &FlightLog) -> f64 {
-    let distance = |r: &quad_ndi::Record| (r.reference.flat.position - r.flight.position).norm();
-    log.records.iter().map(distance).fold(0.0, f64::max)
-}
 
 /// A flight along the reference.
 #[derive(Debug)]
@@ -74,72 +44,65 @@ pub(super) struct Path {
     pub(super) column: String,
     /// Look.
     pub(super) look: Look,
-    /// What was recorded.
-    pub(super) log: FlightLog,
+    /// What it did.
+    pub(super) flight: Flight,
 }
 
 impl Path {
-    /// Flies a scenario on a level.
-    pub(super) fn fly(
-        scenario: &Scenario,
-        vehicle: &Vehicle,
-        level: Level,
-        name: String,
-        look: Look,
-    ) -> Result<Self, ItemError> {
-        let column = name.replace([' ', ','], "_").to_lowercase();
-        Ok(Self {
+    /// A flight with the name and look of its level.
+    fn of_level(flight: Flight) -> Self {
+        let number = flight.level.number();
+        Self::new(level_name(number), level_style(number), flight)
+    }
+
+    /// A flight under this name.
+    pub(super) fn new(name: String, look: Look, flight: Flight) -> Self {
+        Self {
+            column: name.replace([' ', ','], "_").to_lowercase(),
             name,
-            column,
             look,
-            log: scenario.fly_vehicle(vehicle, level)?,
-        })
-    }
-
-    /// Distance from the reference over time, `(t, m)`.
-    pub(super) fn errors(&self) -> Vec<(f64, f64)> {
-        let distance = |r: &quad_ndi::Record| (r.reference.flat.position - r.flight.position).norm();
-        self.log.records.iter().map(|r| (r.time_s, distance(r))).collect()
-    }
-
-    /// Root mean square of the distance from the reference, m; infinite for a flight that diverged.
-    pub(super) fn rms_error(&self) -> f64 {
-        if completed(&self.log) {
-            quad_ndi::metrics::rms(&self.errors(), |_| 0.0)
-        } else {
-            f64::INFINITY
+            flight,
         }
+    }
+
+    /// Root mean square of the distance from the reference, m; infinite for a flight that ended early.
+    pub(super) fn rms_error(&self) -> f64 {
+        self.rms(&self.flight.distances())
     }
 
     /// The horizontal part of [`Path::rms_error`], m.
     pub(super) fn rms_along_ground(&self) -> f64 {
-        let distance = |r: &quad_ndi::Record| (r.reference.flat.position - r.flight.position).xy().norm();
-        let points: Vec<_> = self.log.records.iter().map(|r| (r.time_s, distance(r))).collect();
-        if completed(&self.log) {
-            quad_ndi::metrics::rms(&points, |_| 0.0)
-        } else {
-            f64::INFINITY
+        self.rms(
+            &self
+                .flight
+                .series(|row| (row.reference - row.position).xy().norm()),
+        )
+    }
+
+    fn rms(&self, distances: &[(f64, f64)]) -> f64 {
+        match self.flight.is_complete {
+            true => quad_ndi::metrics::rms(distances, |_| 0.0),
+            false => f64::INFINITY,
         }
     }
 }
 
-/// One controller on several levels.
-pub(super) fn fly_levels(context: &Context, law: Law, levels: &[Level]) -> Result<Vec<Path>, ItemError> {
-    use crate::plot::{level_name, level_style};
-    let scenario = scenario(law);
-    let vehicle = scenario.vehicle(context)?;
-    let path = |&level: &Level| {
-        let n = level.number();
-        Path::fly(&scenario, &vehicle, level, level_name(n), level_style(n))
-    };
-    levels.iter().map(path).collect()
+/// Largest distance of a flight from its reference, m.
+pub(super) fn largest_distance(flight: &Flight) -> f64 {
+    flight.distances().iter().map(|(_, d)| *d).fold(0.0, f64::max)
+}
+
+/// The levels of a scenario file.
+pub(super) fn fly_levels(name: &str) -> Result<Vec<Path>, ItemError> {
+    let flights = scenarios::fly(name)?.flights;
+    Ok(flights.into_iter().map(Path::of_level).collect())
 }
 
 /// Trajectories in space, and the distance from the reference over time.
 pub(super) fn picture(paths: &[Path]) -> Svg {
     let mut errors = Panel::new("Time *t*, s", "Distance from reference, m").y_include(0.0);
     for path in paths {
-        errors = errors.line(path.name.clone(), path.look, path.errors());
+        errors = errors.line(path.name.clone(), path.look, path.flight.distances());
     }
     Figure::columns(1)
         .panel(space(paths))
@@ -158,18 +121,14 @@ pub(super) fn space(paths: &[Path]) -> Space {
     let mut space = empty_space();
     let point = |p: nalgebra::Vector3<f64>| Space::of_z_down(p.x, p.y, p.z);
     if let Some(first) = paths.first() {
-        let reference = first
-            .log
-            .records
-            .iter()
-            .map(move |r| point(r.reference.flat.position));
+        let reference = first.flight.rows.iter().map(move |row| point(row.reference));
         space = space.line("reference", reference_style(), reference);
     }
     for path in paths {
         space = space.line(
             path.name.clone(),
             path.look,
-            path.log.records.iter().map(move |r| point(r.flight.position)),
+            path.flight.rows.iter().map(move |row| point(row.position)),
         );
     }
     space
@@ -179,15 +138,15 @@ pub(super) fn space(paths: &[Path]) -> Space {
 pub(super) fn table(paths: &[Path]) -> DataTable {
     let mut table = DataTable::new(["path", "t_s", "x_m", "y_m", "z_m", "yaw_rad", "distance_m"]);
     for path in paths {
-        for (r, (_, distance)) in path.log.records.iter().zip(path.errors()).step_by(5) {
-            let p = &r.flight.position;
+        for (r, (_, distance)) in path.flight.rows.iter().zip(path.flight.distances()).step_by(5) {
+            let p = &r.position;
             table.push([
                 path.column.as_str().into(),
                 r.time_s.into(),
                 p.x.into(),
                 p.y.into(),
                 p.z.into(),
-                r.flight.attitude.yaw.into(),
+                r.attitude.yaw.into(),
                 distance.into(),
             ]);
         }
@@ -198,7 +157,7 @@ pub(super) fn table(paths: &[Path]) -> DataTable {
 /// One sentence of numbers on each path.
 pub(super) fn remarks(paths: &[Path]) -> Vec<String> {
     let remark = |p: &Path| {
-        let largest = largest_distance(&p.log);
+        let largest = largest_distance(&p.flight);
         format!(
             "{}: RMS distance {:.4} m, largest {largest:.4} m",
             p.name,

@@ -2,13 +2,13 @@
 
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{Scenario, completed, series};
-use crate::item::{Context, ItemError};
+use crate::item::ItemError;
 use crate::plot::svg::Svg;
 use crate::plot::{Figure, Panel, level_name, level_style};
-use quad_dynamics::{AnyQuadrotor, Level};
+use crate::scenarios::{self, Flight, Row, ScenarioFile};
+use quad_dynamics::AnyQuadrotor;
+use quad_ndi::Settings;
 use quad_ndi::metrics::{Effort, StepMetrics};
-use quad_ndi::{FlightLog, FlightStatus, Record};
 
 /// The quantity that steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,17 +46,35 @@ impl Quantity {
         }
     }
 
-    /// The quantity in a record.
-    pub(super) fn of(self, record: &Record) -> f64 {
+    /// The quantity in a row.
+    pub(super) fn of(self, row: &Row) -> f64 {
         match self {
-            Self::Height => -record.flight.position.z,
-            Self::Yaw => record.flight.attitude.yaw,
-            Self::X => record.flight.position.x,
+            Self::Height => -row.position.z,
+            Self::Yaw => row.attitude.yaw,
+            Self::X => row.position.x,
+        }
+    }
+
+    /// What is asked for in a row.
+    pub(super) fn set_point(self, row: &Row) -> f64 {
+        match self {
+            Self::Height => -row.reference.z,
+            Self::Yaw => row.reference_yaw,
+            Self::X => row.reference.x,
+        }
+    }
+
+    /// Settling time of the loop that controls it, s.
+    pub(super) const fn designed_s(self, settings: &Settings) -> f64 {
+        match self {
+            Self::Height => settings.height.settling_time_s,
+            Self::Yaw => settings.yaw.settling_time_s,
+            Self::X => settings.position.settling_time_s,
         }
     }
 
     /// Label, column and index of the pseudo-input that drives it.
-    const fn pseudo_input(self) -> (&'static str, &'static str, usize) {
+    pub(super) const fn pseudo_input(self) -> (&'static str, &'static str, usize) {
         match self {
             Self::Height => ("Collective *u*_{col}", "u_col", 0),
             Self::Yaw => ("Yaw input *u*_{yaw}", "u_yaw", 3),
@@ -71,10 +89,8 @@ pub(super) const STEP: f64 = 1.0;
 /// One level's flight.
 #[derive(Debug)]
 pub(super) struct Outcome {
-    /// The level.
-    pub(super) level: Level,
-    /// What was recorded.
-    pub(super) log: FlightLog,
+    /// What it did.
+    pub(super) flight: Flight,
     /// How the quantity responded.
     pub(super) metrics: Option<StepMetrics>,
     /// What it cost.
@@ -84,67 +100,137 @@ pub(super) struct Outcome {
 impl Outcome {
     /// The quantity over time.
     pub(super) fn response(&self, quantity: Quantity) -> Vec<(f64, f64)> {
-        series(&self.log, |r| quantity.of(r))
+        self.flight.series(|row| quantity.of(row))
+    }
+
+    /// Number of its level.
+    pub(super) const fn number(&self) -> u8 {
+        self.flight.level.number()
     }
 }
 
-/// Flies a scenario on each of the levels.
-pub(super) fn fly(
-    context: &Context,
-    scenario: &Scenario,
+/// A step that was flown on several levels.
+#[derive(Debug)]
+pub(super) struct Steps {
+    file: &'static ScenarioFile,
     quantity: Quantity,
-    levels: &[Level],
-) -> Result<Vec<Outcome>, ItemError> {
-    let vehicle = scenario.vehicle(context)?;
-    let limits = scenario.limits(&vehicle);
-    let outcome = |&level: &Level| {
-        let log = scenario.fly_vehicle(&vehicle, level)?;
+    /// How the simulation ended.
+    ending: String,
+    /// Its flights, from the lowest level up.
+    pub(super) outcomes: Vec<Outcome>,
+}
+
+/// Flies a scenario file, in which this quantity steps.
+pub(super) fn fly(name: &str, quantity: Quantity) -> Result<Steps, ItemError> {
+    let flown = scenarios::fly(name)?;
+    let outcome = |flight: Flight| {
         let at_rest = AnyQuadrotor::<f64>::hovering(
-            level,
-            &vehicle,
-            &scenario.phenomena(level),
+            flight.level,
+            &flight.vehicle,
+            &flight.phenomena,
             nalgebra::Vector3::zeros(),
             0.0,
         )?;
-        let response = series(&log, |r| quantity.of(r));
-        let metrics = completed(&log)
-            .then(|| StepMetrics::of(&response, STEP))
-            .flatten();
-        let effort = Effort::of(&log.records, &at_rest.hover_input().commands, limits.as_ref());
+        let response = flight.series(|row| quantity.of(row));
+        let metrics = flight.is_complete.then(|| StepMetrics::of(&response, STEP));
+        let commands: Vec<(f64, [f64; 4])> =
+            flight.rows.iter().map(|row| (row.time_s, row.commands)).collect();
+        let hover = at_rest.hover_input().commands;
         Ok(Outcome {
-            level,
-            metrics,
-            effort,
-            log,
+            metrics: metrics.flatten(),
+            effort: Effort::of(&commands, &hover, flight.limits().as_ref()),
+            flight,
         })
     };
-    levels.iter().map(outcome).collect()
-}
-
-/// The drawing of a step on several levels: response above, pseudo-input below, data, scenario, metrics.
-pub(super) fn drawing(
-    scenario: &Scenario,
-    quantity: Quantity,
-    outcomes: &[Outcome],
-) -> Result<Drawing, ItemError> {
-    let drawing = Drawing::picture(picture(quantity, outcomes, shown_s(scenario, quantity)))
-        .data(table(quantity, outcomes))
-        .scenario(scenario)?;
-    Ok(outcomes.iter().fold(drawing, |d, o| d.note(remark(quantity, o))))
+    Ok(Steps {
+        file: scenarios::find(name)?,
+        quantity,
+        ending: flown.flown.ending.to_string(),
+        outcomes: flown
+            .flights
+            .into_iter()
+            .map(outcome)
+            .collect::<Result<_, ItemError>>()?,
+    })
 }
 
 /// End of the time axis in designed settling times: what follows is rest, in the data alone.
 const SHOWN: f64 = 1.6;
 
-/// End of the time axis, s.
-fn shown_s(scenario: &Scenario, quantity: Quantity) -> f64 {
-    let settings = &scenario.settings;
-    let designed = match quantity {
-        Quantity::Height => &settings.height,
-        Quantity::Yaw => &settings.yaw,
-        Quantity::X => &settings.position,
-    };
-    (SHOWN * designed.settling_time_s).min(scenario.duration_s)
+impl Steps {
+    /// The drawing: response above, pseudo-input below, data, scenario, metrics.
+    pub(super) fn drawing(&self) -> Drawing {
+        let drawing = Drawing::picture(picture(self.quantity, &self.outcomes, self.shown_s()))
+            .data(table(self.quantity, &self.outcomes))
+            .scenario(self.file);
+        self.outcomes.iter().fold(drawing, |d, o| d.note(self.remark(o)))
+    }
+
+    /// The file that was flown.
+    pub(super) const fn file(&self) -> &'static ScenarioFile {
+        self.file
+    }
+
+    /// The response of each level.
+    pub(super) fn responses(&self) -> Vec<Vec<(f64, f64)>> {
+        self.outcomes.iter().map(|o| o.response(self.quantity)).collect()
+    }
+
+    /// End of the time axis, s.
+    fn shown_s(&self) -> f64 {
+        self.outcomes.first().map_or(0.0, |first| {
+            let end_s = first.flight.rows.last().map_or(0.0, |row| row.time_s);
+            (SHOWN * self.quantity.designed_s(&first.flight.settings)).min(end_s)
+        })
+    }
+
+    /// By how much the commands exceed the vehicle's range at most; negative inside it.
+    pub(super) fn largest_excess(&self) -> f64 {
+        let excess = |flight: &Flight| {
+            let range = flight.vehicle.zeroed_range();
+            let commands = flight.rows.iter().flat_map(|row| row.commands);
+            commands
+                .map(|u| (range.start() - u).max(u - range.end()))
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        self.outcomes
+            .iter()
+            .map(|o| excess(&o.flight))
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// One sentence of numbers on a flight.
+    fn remark(&self, outcome: &Outcome) -> String {
+        let name = level_name(outcome.number());
+        if !outcome.flight.is_complete {
+            return format!("{name}: {}", self.ending);
+        }
+        let Some(m) = outcome.metrics else {
+            return format!("{name}: no step");
+        };
+        let settled = m
+            .settling_time_s
+            .map_or("does not settle to 2 %".to_owned(), |t| {
+                format!("settles in {t:.2} s")
+            });
+        let input = self.quantity.pseudo_input().2;
+        let inputs = outcome
+            .flight
+            .rows
+            .iter()
+            .map(|row| row.pseudo_inputs[input].abs());
+        format!(
+            "{name}: {settled}, overshoot {:.1} %, error at the end {} {unit}, RMS error {:.3} {unit}, RMS command {:.4}, \
+             saturated {:.2} s, largest pseudo-input {:.3}",
+            100.0 * m.overshoot,
+            fixed(m.steady_state_error),
+            m.rms_error,
+            outcome.effort.rms_command,
+            outcome.effort.saturation_time_s,
+            inputs.fold(0.0, f64::max),
+            unit = self.quantity.unit(),
+        )
+    }
 }
 
 /// Largest excursion that is still drawn, in steps; a diverging flight leaves the picture there.
@@ -156,13 +242,13 @@ fn picture(quantity: Quantity, outcomes: &[Outcome], shown_s: f64) -> Svg {
     let mut below = Panel::new("Time *t*, s", input_label);
     let mut extreme = (0.0_f64, 0.0_f64);
     for o in outcomes {
-        let (name, look) = (level_name(o.level.number()), level_style(o.level.number()));
+        let (name, look) = (level_name(o.number()), level_style(o.number()));
         let response = o.response(quantity);
         for &(_, y) in &response {
             extreme = (extreme.0.min(y), extreme.1.max(y));
         }
         above = above.line(name.clone(), look, response);
-        below = below.line(name, look, series(&o.log, |r| r.pseudo_inputs[input]));
+        below = below.line(name, look, o.flight.series(|row| row.pseudo_inputs[input]));
     }
     if extreme.0 < CLIP.0 || extreme.1 > CLIP.1 {
         above = above.y_range(extreme.0.max(CLIP.0), extreme.1.min(CLIP.1));
@@ -176,8 +262,8 @@ fn picture(quantity: Quantity, outcomes: &[Outcome], shown_s: f64) -> Svg {
         let pitch = outcomes
             .iter()
             .fold(Panel::new("Time *t*, s", "Pitch *θ*, rad"), |panel, o| {
-                let (name, look) = (level_name(o.level.number()), level_style(o.level.number()));
-                panel.line(name, look, series(&o.log, |r| r.flight.attitude.pitch))
+                let (name, look) = (level_name(o.number()), level_style(o.number()));
+                panel.line(name, look, o.flight.series(|row| row.attitude.pitch))
             });
         figure = figure.panel(pitch);
     }
@@ -192,7 +278,7 @@ fn differences(outcomes: &[Outcome]) -> Panel {
     let Some((lowest, others)) = outcomes.split_first() else {
         return Panel::default();
     };
-    let label = format!("*x* − *x*_{{level {}}}, mm", lowest.level.number());
+    let label = format!("*x* − *x*_{{level {}}}, mm", lowest.number());
     let base = lowest.response(Quantity::X);
     let panel = Panel::new("Time *t*, s", label).horizontal(0.0, "");
     others.iter().fold(panel, |panel, o| {
@@ -201,7 +287,7 @@ fn differences(outcomes: &[Outcome]) -> Panel {
             .iter()
             .zip(&base)
             .map(|((t, x), (_, b))| (*t, 1e3 * (x - b)));
-        let number = o.level.number();
+        let number = o.number();
         panel.line("", level_style(number), points.collect::<Vec<_>>())
     })
 }
@@ -217,7 +303,7 @@ fn range_without_spike(outcomes: &[Outcome], input: usize) -> Option<(f64, f64)>
     let extremes = |from: f64| {
         let records = outcomes
             .iter()
-            .flat_map(|o| &o.log.records)
+            .flat_map(|o| &o.flight.rows)
             .filter(move |r| r.time_s >= from);
         records
             .map(|r| r.pseudo_inputs[input])
@@ -233,19 +319,19 @@ fn range_without_spike(outcomes: &[Outcome], input: usize) -> Option<(f64, f64)>
 /// Columns: time, then quantity and pseudo-input of each level.
 fn table(quantity: Quantity, outcomes: &[Outcome]) -> DataTable {
     let (_, input_column, input) = quantity.pseudo_input();
-    let longest = outcomes.iter().max_by_key(|o| o.log.records.len());
+    let longest = outcomes.iter().max_by_key(|o| o.flight.rows.len());
     let mut names = vec!["t_s".to_owned()];
     let mut columns: Vec<Vec<f64>> = vec![
         longest
-            .map(|o| o.log.records.iter().map(|r| r.time_s).collect())
+            .map(|o| o.flight.rows.iter().map(|r| r.time_s).collect())
             .unwrap_or_default(),
     ];
     for o in outcomes {
-        let level = o.level.number();
+        let level = o.number();
         names.push(format!("{}_level_{level}", quantity.column()));
-        columns.push(o.log.records.iter().map(|r| quantity.of(r)).collect());
+        columns.push(o.flight.rows.iter().map(|r| quantity.of(r)).collect());
         names.push(format!("{input_column}_level_{level}"));
-        columns.push(o.log.records.iter().map(|r| r.pseudo_inputs[input]).collect());
+        columns.push(o.flight.rows.iter().map(|r| r.pseudo_inputs[input]).collect());
     }
     // A flight that diverged has no values after that: NaN leaves the cell without a number.
     let rows = columns[0].len();
@@ -267,38 +353,6 @@ pub(super) fn fixed(value: f64) -> String {
         Some(size) if size.bytes().all(|b| b == b'0' || b == b'.') => size.to_owned(),
         _ => text,
     }
-}
-
-/// One sentence of numbers on a flight.
-fn remark(quantity: Quantity, outcome: &Outcome) -> String {
-    let name = level_name(outcome.level.number());
-    if let FlightStatus::Diverged { time_s, .. } = outcome.log.status {
-        return format!("{name}: diverged, no finite state from {time_s:.3} s on");
-    }
-    let Some(m) = outcome.metrics else {
-        return format!("{name}: no step");
-    };
-    let settled = m
-        .settling_time_s
-        .map_or("does not settle to 2 %".to_owned(), |t| {
-            format!("settles in {t:.2} s")
-        });
-    format!(
-        "{name}: {settled}, overshoot {:.1} %, error at the end {} {unit}, RMS error {:.3} {unit}, RMS command {:.4}, \
-         saturated {:.2} s, largest pseudo-input {:.3}",
-        100.0 * m.overshoot,
-        fixed(m.steady_state_error),
-        m.rms_error,
-        outcome.effort.rms_command,
-        outcome.effort.saturation_time_s,
-        outcome
-            .log
-            .records
-            .iter()
-            .map(|r| r.pseudo_inputs[quantity.pseudo_input().2].abs())
-            .fold(0.0, f64::max),
-        unit = quantity.unit(),
-    )
 }
 
 /// Largest distance between two responses at the same instants; infinite if one is shorter.
@@ -331,15 +385,4 @@ pub(super) fn rise_time_s(response: &[(f64, f64)]) -> f64 {
         .iter()
         .find(|(_, y)| *y >= 0.9 * STEP)
         .map_or(f64::INFINITY, |(t, _)| *t)
-}
-
-/// By how much the commands of all flights exceed a range at most; negative inside it.
-pub(super) fn largest_excess(outcomes: &[Outcome], range: &std::ops::RangeInclusive<f64>) -> f64 {
-    let excess = |u: f64| (range.start() - u).max(u - range.end());
-    outcomes
-        .iter()
-        .flat_map(|o| &o.log.records)
-        .flat_map(|r| r.commands)
-        .map(excess)
-        .fold(f64::NEG_INFINITY, f64::max)
 }

@@ -144,7 +144,7 @@ fn matrix(context: &Context) -> Result<Drawing, ItemError> {
     let tolerance = 1e3 * CASE.gain(effort);
     Ok(Drawing::picture(figure.draw())
         .data(data.with_tolerance(SEARCHED))
-        .scenario(&CASE.settings(effort)?)?
+        .settings(&CASE.settings(effort)?)?
         .check(
             OWN_IS_BEST,
             least >= -tolerance,
@@ -178,7 +178,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     }
     Ok(Drawing::picture(figure.draw())
         .data(data)
-        .scenario(&CASE.settings(effort)?)?
+        .settings(&CASE.settings(effort)?)?
         .check(
             RISES,
             rises,

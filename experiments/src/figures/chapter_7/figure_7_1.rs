@@ -81,7 +81,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let check = growth::within_the_limits(&station, &missed);
     Ok(Drawing::picture(overfill::sketch().above(&figure.draw()))
         .data(DataTable::from_columns(&data))
-        .scenario(&toml::toml! { station = "stations/ets.toml" range = "limits.range_m" })?
+        .settings(&toml::toml! { station = "stations/ets.toml" range = "limits.range_m" })?
         .check(GROWS, check.holds, check.measured)
         .note(
             "past the edge of the sensor, where the spot's centre itself misses, a more oblique sensor catches more of the spot's tail: \

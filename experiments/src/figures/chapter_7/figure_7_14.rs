@@ -135,7 +135,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .beneath(shown)
         .data(DataTable::from_columns(&data))
         .named_data("minima", minima_table(&surfaces))
-        .scenario(&toml::toml! { vehicle = "vehicles/qball-x4.toml" station = "stations/ets.toml" pedestal_heading_deg = 90.0 duration_s = 20.0 height_m = 3.0 position_settling_s = 5.0 })?
+        .settings(&toml::toml! { vehicle = "vehicles/qball-x4.toml" station = "stations/ets.toml" pedestal_heading_deg = 90.0 duration_s = 20.0 height_m = 3.0 position_settling_s = 5.0 })?
         .check(
             SEVERAL,
             least >= 2,

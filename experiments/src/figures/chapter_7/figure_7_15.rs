@@ -159,7 +159,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             ("slope_x_f_per_m", &column(|(_, slope)| slope.gradient[1])),
         ]))
         .named_data("cut", cut.data())
-        .scenario(&toml::toml! { vehicle = "vehicles/qball-x4.toml" station = "stations/ets.toml" pedestal_heading_deg = 90.0 duration_s = 20.0 height_m = 3.0 position_settling_s = 5.0 start_m = [5.0, 5.0] })?
+        .settings(&toml::toml! { vehicle = "vehicles/qball-x4.toml" station = "stations/ets.toml" pedestal_heading_deg = 90.0 duration_s = 20.0 height_m = 3.0 position_settling_s = 5.0 start_m = [5.0, 5.0] })?
         .check(
             SLOPES,
             least > ACCURACY,

@@ -2,13 +2,13 @@
 
 use crate::drawing::Drawing;
 use crate::figures::glyphs;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::diagram::{ARROW, CONSTRUCTION};
 use crate::plot::sketch::{Eye, Sketch, arc};
 use crate::plot::style::{BLUE, GREEN, INK, Look, VERMILION};
 use crate::plot::svg::at;
 use crate::station::{NOMINAL_STATION, load_station};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use ets::{Aperture, Ets, GimbalState, Receiver};
 use nalgebra::{Matrix3, Vector3};
 use quad_kinematics::EulerAngles;

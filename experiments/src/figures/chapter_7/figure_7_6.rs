@@ -115,7 +115,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             ("pan_rate_rad_s", &column(|r| r.state.gimbal.pan_rate)),
             ("tilt_rate_rad_s", &column(|r| r.state.gimbal.tilt_rate)),
         ]))
-        .scenario(&toml::toml! { station = "stations/ets.toml" start_px = [200.0, 100.0] range_m = 5.0 step_s = 0.001 duration_s = 3.0 })?
+        .settings(&toml::toml! { station = "stations/ets.toml" start_px = [200.0, 100.0] range_m = 5.0 step_s = 0.001 duration_s = 3.0 })?
         .check(
             ENDS,
             visible && end < AT_CENTRE_PX,

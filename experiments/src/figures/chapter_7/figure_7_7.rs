@@ -84,7 +84,7 @@ fn draw(_: &Context) -> Result<Drawing, ItemError> {
     let drawing = Drawing::picture(figure.draw())
         .data(DataTable::from_columns(&[("simplex_x", &corners[0]), ("simplex_y", &corners[1])]))
         .named_data("histories", histories_table)
-        .scenario(&toml::toml! { start = [-1.0, -1.0] box = [-6.0, 6.0] step = 0.1 })?
+        .settings(&toml::toml! { start = [-1.0, -1.0] box = [-6.0, 6.0] step = 0.1 })?
         .check(
             ENDS,
             farthest < NEAR,

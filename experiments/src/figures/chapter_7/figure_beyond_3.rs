@@ -51,7 +51,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     Ok(Drawing::picture(picture(&study).draw())
         .data(study.table())
         .named_data("optima", study.optima_table())
-        .scenario(&Case::TwoIn20.settings(effort)?)?
+        .settings(&Case::TwoIn20.settings(effort)?)?
         .check(NEAR, near, numbers)
         .check(GATE, gate, shares)
         .note(format!(

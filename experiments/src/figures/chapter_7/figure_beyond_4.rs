@@ -156,7 +156,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     };
     Ok(Drawing::picture(figure.draw())
         .data(data)
-        .scenario(&settings)?
+        .settings(&settings)?
         .check(TWO_REACHES, reaches(&two), reached(&two))
         .check(TWO_SAVES, two.largest_share() <= QUARTER, saved(&two))
         .check(FOUR_REACHES, reaches(&four), reached(&four))

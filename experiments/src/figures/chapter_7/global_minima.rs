@@ -122,7 +122,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     Ok(Drawing::table(shown)
         .note(BOUND_NOTE)
         .data(data.with_tolerance(SEARCHED).with_volatile("time_s"))
-        .scenario(&settings(effort))?
+        .settings(&settings(effort))?
         .check(
             NOT_WORSE,
             worst <= tolerance,

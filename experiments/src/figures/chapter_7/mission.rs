@@ -1,8 +1,8 @@
 //! The problems of the chapter: the nominal crossing with the parameter files' vehicle and station.
 
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, ItemError};
 use crate::station::{NOMINAL_STATION, load_station};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_dynamics::Level;
 use std::sync::{Arc, Mutex, PoisonError};
 use wpt_optim::{Choice, Grid, Mission, Penalties, Problem, Surface, Weights};

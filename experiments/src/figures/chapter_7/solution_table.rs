@@ -116,7 +116,7 @@ pub(super) fn table(context: &Context, case: Case) -> Result<Drawing, ItemError>
     }
     Ok(Drawing::table(shown)
         .data(data.with_tolerance(SEARCHED).with_volatile("time_s"))
-        .scenario(&case.settings(effort)?)?
+        .settings(&case.settings(effort)?)?
         .note(format!(
             "{north} of {searches} searches end in minima whose crossing passes north of the station, {} south of it.",
             searches - north

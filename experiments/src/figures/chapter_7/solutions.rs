@@ -123,7 +123,7 @@ fn noted(mut drawing: Drawing, case: Case, effort: Effort) -> Result<Drawing, It
     for remark in remarks(case, effort)? {
         drawing = drawing.note(remark);
     }
-    Ok(drawing.scenario(&case.settings(effort)?)?)
+    Ok(drawing.settings(&case.settings(effort)?)?)
 }
 
 /// A panel of one quantity over time, a line per level.

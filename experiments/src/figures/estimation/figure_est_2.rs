@@ -4,10 +4,10 @@ use super::flight::{Eyes, STEP_S, Truth, filter, noise};
 use crate::claim::Claim;
 use crate::data::DataTable;
 use crate::drawing::Drawing;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 use crate::plot::panel::BandPoint;
 use crate::plot::{Figure, Panel, level_style, series_style};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_dynamics::Level;
 use quad_estimation::sensor::Quality;
 

@@ -1,6 +1,6 @@
 //! Flights of the truth, level 5 with noise, seen through sensors of some quality; and filters over them.
 
-use super::super::chapter_6::{flight_settings, path_waypoints};
+use crate::figures::{flight_settings, path_waypoints};
 use crate::item::ItemError;
 use nalgebra::{DVector, Vector3};
 use quad_dynamics::{AnyQuadrotor, CommandLimits, Input, Level, RigidBodyState, Snapshot, Vehicle};
@@ -99,7 +99,7 @@ impl Truth {
 
     /// Flies the trajectory, the controller looking through these eyes.
     pub(super) fn fly(vehicle: &Vehicle, quality: Quality, seed: u64, eyes: Eyes) -> Result<Self, ItemError> {
-        let waypoints: Vec<_> = path_waypoints()
+        let waypoints: Vec<_> = path_waypoints()?
             .into_iter()
             .map(|mut w| {
                 w.position_m[2] -= ABOVE_M;
@@ -134,7 +134,7 @@ impl Truth {
         };
         // Only level 5 knows the limits: no command may be beyond them, or the others would predict what can't be.
         let limits = Some(CommandLimits::of(vehicle));
-        let mut pilot = AnyController::C3(C3::new(vehicle, &flight_settings())?.into()).with_limits(limits);
+        let mut pilot = AnyController::C3(C3::new(vehicle, &flight_settings()?)?.into()).with_limits(limits);
         let per_step = process.process_noise(STEP_S).map(f64::sqrt);
         for k in 1..=STEPS {
             let flat = path.flat_output((k - 1) as f64 * STEP_S);
@@ -168,7 +168,7 @@ impl Truth {
 
     /// Root mean square of the distance from the trajectory over the second half, m.
     pub(super) fn tracking_m(&self) -> Result<f64, ItemError> {
-        let path = Trajectory::through(&path_waypoints())?;
+        let path = Trajectory::through(&path_waypoints()?)?;
         let half = self.instants.len() / 2;
         let squares = |(k, instant): (usize, &Instant)| {
             let mut at = path.flat_output((k + 1) as f64 * STEP_S).position;

@@ -2,8 +2,8 @@
 
 use super::flight::{Eyes, Told, Truth, filter, first, noise};
 use super::sums::Sums;
-use crate::flight::{NOMINAL_VEHICLE, load_vehicle};
 use crate::item::{Context, ItemError};
+use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_dynamics::{Level, Vehicle};
 use quad_estimation::sensor::Quality;
 use quad_estimation::{ProcessNoise, Spread, UnscentedFilter};
