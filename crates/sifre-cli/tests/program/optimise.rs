@@ -148,7 +148,7 @@ fn exact_bad_problems_exit_with_2() {
     );
     refuses(
         &variable(&format!("{key}, lower = 6, upper = 9")),
-        &["x_0_m", "5, is outside"],
+        &["x_0_m", "[6, 9], got 5"],
     );
     refuses(
         &variable("key = \"quadrotor.alpha.reference.x_9_m\", lower = 1, upper = 9"),
