@@ -72,6 +72,14 @@ struct Footprint<'a, R: Real> {
     cos: R,
 }
 
+/// `Q = I − δδᵀ`. Its first element is no less than `cos² α`, for whose square at grazing incidence the difference leaves a rounding error of either sign.
+#[inline(always)]
+fn form<R: Real>(across: &Vector2<R>) -> Matrix2<R> {
+    let mut q = Matrix2::identity() - across * across.transpose();
+    q.m11 = q.m11.simd_max(constant(GRAZING * GRAZING));
+    q
+}
+
 impl<'a, R: Real> Footprint<'a, R> {
     #[inline(always)]
     fn new(light: &'a Light<R>, ray: &Ray<R>, face: &Face<R>, spot: &Vector2<R>, cos: R) -> Self {
@@ -83,7 +91,7 @@ impl<'a, R: Real> Footprint<'a, R> {
             along,
             centre,
             spot: *spot,
-            q: Matrix2::identity() - across * across.transpose(),
+            q: form(&across),
             reach: sqrt(light.radius_squared(centre.dot(&along))) * constant(REACH),
             cos,
         }

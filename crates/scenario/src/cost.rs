@@ -9,6 +9,7 @@ use crate::file::{EtsFile, OptimiseFile, Scenario};
 use ets::Station;
 use quad_dynamics::Vehicle;
 use sifre::StepSize;
+use std::collections::HashMap;
 use std::sync::Arc;
 use wpt_optim::{CostBox, Outcome, Pair, Penalties, Weights};
 
@@ -54,7 +55,11 @@ impl Judged {
 
 /// The costs of a scenario's stations.
 pub(crate) fn judged(scenario: &Scenario, agents: &[AgentInfo]) -> Result<Vec<Judged>, ScenarioError> {
-    let kind = |name: &str| agents.iter().find(|agent| agent.name == name).map(|a| &a.kind);
+    let kinds: HashMap<&str, &AgentKind> = agents
+        .iter()
+        .map(|agent| (agent.name.as_str(), &agent.kind))
+        .collect();
+    let kind = |name: &str| kinds.get(name).copied();
     let one = |file: &EtsFile| {
         let optimise = scenario.optimise_of(file);
         let pair = pair(file, optimise);

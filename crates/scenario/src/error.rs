@@ -56,15 +56,24 @@ pub enum ScenarioError {
     },
     /// A name that can't be part of a channel's.
     #[error(
-        "\"{name}\" can't be an agent's name: it must not be empty and must have no dots, commas, quotes or line breaks"
+        "\"{name}\" can't be an agent's name: it must have 1 to 100 characters, none of them a dot, comma, quote, asterisk, line break, control or \
+         bidirectional character"
     )]
     Name {
         /// The name.
         name: String,
     },
+    /// A scenario's name that can't be printed.
+    #[error(
+        "name = \"{name}\": it must have up to 100 characters, none of them a line break, control or bidirectional character"
+    )]
+    Title {
+        /// The name.
+        name: String,
+    },
     /// A gimbal that is to start where it can't go.
     #[error(
-        "{agent}: {key} = {value_deg} is outside the gimbal's travel, {from_deg:.1} to {to_deg:.1} degrees"
+        "{agent}: {key} = {value_deg:?} is outside the gimbal's travel, {from_deg:.1} to {to_deg:.1} degrees"
     )]
     Travel {
         /// The station.
@@ -181,12 +190,12 @@ pub enum ScenarioError {
         key: &'static str,
     },
     /// A number outside what it may be.
-    #[error("{agent}: {key} = {value}: it must be {must}")]
+    #[error("{agent}: {key} = {value:?}: it must be {must}")]
     Number {
         /// Whose, in words.
         agent: String,
         /// Which.
-        key: &'static str,
+        key: String,
         /// What it was.
         value: f64,
         /// What it must be.

@@ -105,7 +105,7 @@ impl Run {
     /// # Errors
     /// An end that the clock doesn't have; a cost that can't be summed up; a run that is in the middle of an agent's step. Whatever happens
     /// during the flight is an [`Ending`] instead.
-    pub fn fly(&mut self, keep: &Keep, observer: &mut dyn Observer) -> Result<Flown, ScenarioError> {
+    pub fn fly(&mut self, keep: &Keep, observer: &mut (dyn Observer + Send)) -> Result<Flown, ScenarioError> {
         let sums = match keep.metrics {
             true => Some(
                 self.simulation

@@ -6,7 +6,9 @@ use ets::Station;
 use quad_dynamics::vehicle::VehicleFile;
 use quad_dynamics::vehicle::builtin::{CRAZYFLIE_TOML, QBALL_X4_TOML, QBALL_X4_VENDOR_TOML};
 use quad_dynamics::{Vehicle, VehicleError};
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 use toml::{Table, Value};
 
 /// The vehicles that come with the project: name and file.
@@ -67,15 +69,54 @@ fn text(
     })
 }
 
-/// The vehicle of an agent, with these parameters other than in its file.
-pub(crate) fn vehicle(
-    agent: &str,
-    wanted: &str,
-    parameters: &Table,
-    files: &dyn Files,
-) -> Result<Vehicle, ScenarioError> {
-    let SoundFile { file, origin } = vehicle_file(agent, wanted, parameters, files)?;
-    Vehicle::from_file(&file, &origin).map_err(|source| refused(agent, source))
+/// The vehicles and stations of a scenario, each read once, however many agents have it.
+pub(crate) struct Library<'a> {
+    files: &'a dyn Files,
+    /// By name, and by the scenario's own parameters.
+    vehicles: RefCell<HashMap<(String, String), Arc<Vehicle>>>,
+    stations: RefCell<HashMap<String, Station>>,
+}
+
+impl<'a> Library<'a> {
+    /// Nothing read yet.
+    pub(crate) fn new(files: &'a dyn Files) -> Self {
+        Self {
+            files,
+            vehicles: RefCell::default(),
+            stations: RefCell::default(),
+        }
+    }
+
+    /// The vehicle of an agent, with these parameters other than in its file.
+    pub(crate) fn vehicle(
+        &self,
+        agent: &str,
+        wanted: &str,
+        parameters: &Table,
+    ) -> Result<Arc<Vehicle>, ScenarioError> {
+        let key = (wanted.to_owned(), parameters.to_string());
+        if let Some(known) = self.vehicles.borrow().get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        let SoundFile { file, origin } = vehicle_file(agent, wanted, parameters, self.files)?;
+        let vehicle = Vehicle::from_file(&file, &origin).map_err(|source| refused(agent, source))?;
+        let vehicle = Arc::new(vehicle);
+        self.vehicles.borrow_mut().insert(key, Arc::clone(&vehicle));
+        Ok(vehicle)
+    }
+
+    /// The station of an agent.
+    pub(crate) fn station(&self, agent: &str, wanted: &str) -> Result<Station, ScenarioError> {
+        if let Some(known) = self.stations.borrow().get(wanted) {
+            return Ok(known.clone());
+        }
+        let text = text(agent, "station", wanted, &STATIONS, self.files)?;
+        let station = Station::from_toml_str(&text, wanted).map_err(|source| station_error(agent, source))?;
+        self.stations
+            .borrow_mut()
+            .insert(wanted.to_owned(), station.clone());
+        Ok(station)
+    }
 }
 
 /// A vehicle file that has been read, and its name in messages.
@@ -155,12 +196,6 @@ fn change(agent: &str, file: &mut Table, parameters: &Table, above: &str) -> Res
         }
     }
     Ok(())
-}
-
-/// The station of an agent.
-pub(crate) fn station(agent: &str, wanted: &str, files: &dyn Files) -> Result<Station, ScenarioError> {
-    let text = text(agent, "station", wanted, &STATIONS, files)?;
-    Station::from_toml_str(&text, wanted).map_err(|source| station_error(agent, source))
 }
 
 pub(crate) fn station_error(agent: &str, source: ets::StationError) -> ScenarioError {

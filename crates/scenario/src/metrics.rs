@@ -22,6 +22,7 @@
 use crate::step::StepResponse;
 use sifre::black_box::Channel;
 use sifre::{BlackBox, BlackBoxError};
+use std::collections::HashMap;
 
 /// A number that sums up a flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,7 +177,10 @@ impl MetricsBox {
 
 impl BlackBox for MetricsBox {
     fn begin(&mut self, channels: &[Channel]) -> Result<(), BlackBoxError> {
-        let place = |name: String| channels.iter().position(|channel| channel.name == name);
+        let places: HashMap<&str, usize> = (channels.iter().enumerate())
+            .map(|(place, channel)| (channel.name.as_str(), place))
+            .collect();
+        let place = |name: String| places.get(name.as_str()).copied();
         for channel in channels {
             if let Some(name) = channel.name.strip_suffix(".reference.position.x") {
                 self.quadrotors.extend(Quadrotor::of(name, &place));

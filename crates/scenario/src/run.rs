@@ -5,8 +5,8 @@ use crate::cost::Judged;
 use crate::error::ScenarioError;
 use crate::file::{BoxLimits, OutputFile, StopFile};
 use sifre::{
-    AgentEvent, Engine, Event, Member, Observer, Progress, RunReport, RunStatus, Scene, SimulationError,
-    SimulationSnapshot, StepSize, StopCondition, Who, steps,
+    AgentEvent, AgentId, Engine, Event, Execution, Member, Observer, Progress, Published, RunReport,
+    RunStatus, Scene, SimulationError, SimulationSnapshot, StepSize, StopCondition, Who, steps,
 };
 use std::fmt;
 use std::ops::ControlFlow;
@@ -15,6 +15,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Speed below which a quadrotor that has arrived counts as at rest, m/s.
 const AT_REST_M_S: f64 = 0.05;
+
+/// Agents from which on they are moved on all cores: with fewer, handing them over costs more than it saves.
+const MANY: usize = 256;
 
 /// Name of the one condition that is no failure.
 const ARRIVED: &str = "all quadrotors have arrived";
@@ -90,7 +93,7 @@ impl Built {
         let quadrotors: Vec<String> = quadrotors.map(|agent| agent.name.clone()).collect();
         let lost = Arc::new(AtomicBool::new(false));
         let mut simulation = simulation(self.members)?;
-        for condition in conditions(&self.stop, quadrotors, self.goals, &lost) {
+        for condition in conditions(&self.stop, &quadrotors, &self.goals, &lost, &simulation) {
             simulation.stop_when(condition)?;
         }
         Ok(Run {
@@ -114,12 +117,18 @@ impl Run {
     }
 
     /// Runs to the scenario's end, or to whatever ends it before.
-    pub(crate) fn run(&mut self, observer: &mut dyn Observer) -> Result<Ending, SimulationError> {
+    pub(crate) fn run(&mut self, observer: &mut (dyn Observer + Send)) -> Result<Ending, SimulationError> {
         let mut watch = Watch {
             inner: observer,
             lost: &self.lost,
         };
-        let report = self.simulation.run(self.duration_s, &mut watch)?;
+        let (simulation, end_s) = (&mut self.simulation, self.duration_s);
+        let report = if simulation.names().len() < MANY {
+            simulation.run(end_s, &mut watch)?
+        } else {
+            simulation.execute(Execution::Parallel);
+            rayon::scope(|_| simulation.run(end_s, &mut watch))?
+        };
         let end = match &report.status {
             RunStatus::Completed => End::Done,
             RunStatus::Condition { name } if name == ARRIVED => End::Done,
@@ -136,7 +145,7 @@ impl Run {
 
 /// Passes everything on, and raises a flag where a station loses its target.
 struct Watch<'a> {
-    inner: &'a mut dyn Observer,
+    inner: &'a mut (dyn Observer + Send),
     lost: &'a AtomicBool,
 }
 
@@ -156,11 +165,14 @@ impl Observer for Watch<'_> {
 /// The conditions that a scenario asks for.
 fn conditions(
     stop: &StopFile,
-    quadrotors: Vec<String>,
-    goals: Vec<Goal>,
+    quadrotors: &[String],
+    goals: &[Goal],
     lost: &Arc<AtomicBool>,
+    simulation: &Engine,
 ) -> Vec<StopCondition> {
     let mut all = Vec::new();
+    // Looked up once: conditions are asked at every instant.
+    let named = |name: &String| simulation.find(name);
     if stop.ground {
         all.extend(quadrotors.iter().map(|name| StopCondition::Below {
             who: Who::Agent(name.clone()),
@@ -177,32 +189,38 @@ fn conditions(
         && goals.len() == quadrotors.len()
         && !goals.is_empty()
     {
-        let arrived = move |scene: &Scene<'_>| goals.iter().all(|goal| goal.is_reached(scene, within_m));
+        let goals: Vec<(AgentId, Goal)> = goals
+            .iter()
+            .filter_map(|g| Some((named(&g.agent)?, g.clone())))
+            .collect();
+        let arrived = move |scene: &Scene<'_>| {
+            goals
+                .iter()
+                .all(|(id, goal)| goal.is_reached(scene, *id, within_m))
+        };
         all.push(StopCondition::when(ARRIVED, arrived));
     }
     if let Some(limits) = stop.outside {
-        let out = move |scene: &Scene<'_>| quadrotors.iter().any(|name| limits.is_left(scene, name));
+        let ids: Vec<AgentId> = quadrotors.iter().filter_map(named).collect();
+        let out = move |scene: &Scene<'_>| ids.iter().any(|id| limits.is_left(scene.published(*id)));
         all.push(StopCondition::when("a quadrotor has left its box", out));
     }
     all
 }
 
 impl Goal {
-    fn is_reached(&self, scene: &Scene<'_>, within_m: f64) -> bool {
+    fn is_reached(&self, scene: &Scene<'_>, id: AgentId, within_m: f64) -> bool {
+        let published = scene.published(id);
         scene.time_s() >= self.from_s
-            && scene.of(&self.agent).is_some_and(|published| {
-                (published.position - self.position).norm() <= within_m
-                    && published.velocity.norm() <= AT_REST_M_S
-            })
+            && (published.position - self.position).norm() <= within_m
+            && published.velocity.norm() <= AT_REST_M_S
     }
 }
 
 impl BoxLimits {
-    fn is_left(&self, scene: &Scene<'_>, name: &str) -> bool {
-        scene.of(name).is_some_and(|published| {
-            let inside = |i: usize| (self.from_m[i]..=self.to_m[i]).contains(&published.position[i]);
-            !(0..3).all(inside)
-        })
+    fn is_left(&self, published: &Published) -> bool {
+        let inside = |i: usize| (self.from_m[i]..=self.to_m[i]).contains(&published.position[i]);
+        !(0..3).all(inside)
     }
 }
 

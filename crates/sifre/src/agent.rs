@@ -13,12 +13,19 @@
 
 use crate::clock::{StepSize, seconds};
 use crate::event::AgentEvent;
+use crate::names::Names;
 use crate::speed::Hook;
 use crate::{BindError, Channel, UnknownAgent};
 use nalgebra::Vector3;
 use quad_kinematics::{Body, Rotation, World};
 use std::any::Any;
 use std::fmt::Debug;
+
+/// The farthest that anything may be placed from the origin, m: beyond the Moon, and near enough for the square of any distance to be a number.
+pub const FARTHEST_M: f64 = 1e9;
+
+/// Speed of sound at 15 °C, m/s, which no quadrotor reaches: drag and rotors are those of air that is not compressed.
+pub const SPEED_OF_SOUND_M_S: f64 = 340.0;
 
 /// What others may see of an agent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +62,19 @@ impl Published {
         (vectors + self.rotation.matrix.sum()).is_finite()
     }
 
+    /// Whether it is a flight within the validity of the quadrotors' models.
+    #[inline(always)]
+    pub(crate) fn check_flight(&self) -> Result<(), Invalid> {
+        if !self.is_finite() {
+            return Err(Invalid::NotFinite);
+        }
+        if self.velocity.norm_squared() > SPEED_OF_SOUND_M_S * SPEED_OF_SOUND_M_S {
+            let speed_m_s = self.velocity.norm();
+            return Err(Invalid::TooFast { speed_m_s });
+        }
+        Ok(())
+    }
+
     /// Its numbers: position, velocity, matrix column by column, rates.
     pub(crate) fn to_array(self) -> [f64; Self::LEN] {
         let mut all = [0.0; Self::LEN];
@@ -76,7 +96,7 @@ impl Published {
     }
 }
 
-/// An agent of a simulation, as others refer to it. Got from a [`Directory`] by name.
+/// An agent of a simulation, as others refer to it. Got from a [`Directory`], or of an [`Engine`](crate::Engine), by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AgentId(pub(crate) usize);
 
@@ -86,7 +106,7 @@ pub struct Directory<'a> {
     /// The step of the agent that asks.
     pub step: StepSize,
     pub(crate) asking: &'a str,
-    pub(crate) names: &'a [String],
+    pub(crate) names: &'a Names,
 }
 
 impl Directory<'_> {
@@ -95,7 +115,7 @@ impl Directory<'_> {
     /// # Errors
     /// If there is none, or the agent that asks is meant itself: nobody tracks or follows itself.
     pub fn find(&self, wanted: &str) -> Result<AgentId, UnknownAgent> {
-        let place = self.names.iter().position(|name| name == wanted);
+        let place = self.names.find(wanted);
         place
             .filter(|&i| self.names[i] != self.asking)
             .map(AgentId)
@@ -143,10 +163,21 @@ impl Moment<'_> {
     }
 }
 
-/// An agent whose numbers are none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a number of the agent's state is NaN or infinite")]
-pub struct NotFinite;
+/// Why what an agent would publish is not taken.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Invalid {
+    /// A number of its state is NaN or infinite.
+    #[error("its state became NaN or infinite")]
+    NotFinite,
+    /// It is faster than its model is valid.
+    #[error(
+        "it moves at {speed_m_s:.4e} m/s; its model is valid up to the speed of sound, {SPEED_OF_SOUND_M_S} m/s"
+    )]
+    TooFast {
+        /// Its speed, m/s.
+        speed_m_s: f64,
+    },
+}
 
 /// Why an agent can't take up what was saved of it.
 #[derive(Debug, thiserror::Error)]
@@ -227,13 +258,18 @@ pub trait Agent: Any + Debug + Send {
     /// Publishes where it is, unless a number isn't finite: what was published before then remains. Provided here so that
     /// it is compiled together with [`Agent::published`]: numbers are checked and stored while they are at hand.
     #[doc(hidden)]
-    fn publish(&self, to: &mut Published, _: Hook) -> Result<(), NotFinite> {
+    fn publish(&self, to: &mut Published, _: Hook) -> Result<(), Invalid> {
         let published = self.published();
         if !published.is_finite() {
-            return Err(NotFinite);
+            return Err(Invalid::NotFinite);
         }
         *to = published;
         Ok(())
+    }
+
+    /// What probably made it diverge with this step, in words, if that can be told from how it is built.
+    fn likely_cause(&self, _step: StepSize) -> Option<String> {
+        None
     }
 
     /// Decides on its inputs from this instant to its next; tells if something worth noting happened.

@@ -216,6 +216,7 @@ mod tests {
     use super::*;
     use crate::agent::Published;
     use crate::clock::StepSize;
+    use crate::names::Names;
     use proptest::prelude::*;
     use quad_kinematics::Rotation;
 
@@ -242,7 +243,7 @@ mod tests {
     }
 
     fn facing() -> Facing<Reference<f64>> {
-        let names = ["me".to_owned(), "other".to_owned()];
+        let names = Names::new(["me", "other"].map(str::to_owned)).unwrap();
         let mut facing = Facing::agent(Reference::hold(Vector3::zeros(), 0.7), "other");
         let directory = Directory {
             step: StepSize::MILLISECOND,

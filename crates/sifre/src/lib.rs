@@ -89,6 +89,7 @@ mod ets;
 mod event;
 mod exact;
 mod guidance;
+mod names;
 pub mod quadrotor;
 mod rollout;
 mod schedule;
@@ -98,7 +99,10 @@ pub mod steps;
 mod target;
 
 pub use crate::ets::{Ets, EtsSetup, GimballedEts, IdealEts};
-pub use agent::{Agent, AgentId, Directory, Member, MemoryError, Moment, NotFinite, Published};
+pub use agent::{
+    Agent, AgentId, Directory, FARTHEST_M, Invalid, Member, MemoryError, Moment, Published,
+    SPEED_OF_SOUND_M_S,
+};
 pub use black_box::{BlackBox, BlackBoxError, Channel, Recording};
 pub use clock::StepSize;
 pub use engine::{

@@ -9,13 +9,14 @@
 //! advance independently, on all cores if asked. Use it for sweeps over references or starts;
 //! use the [`Engine`](crate::Engine) when agents see each other, change their level or have different steps.
 
-use crate::agent::Published;
+use crate::agent::{Invalid, Published};
 use crate::black_box::{BlackBox, BlackBoxError, Channel, Frame, Role};
 use crate::clock::{StepSize, instant_ns, seconds};
 use crate::engine::{
     Execution, LastSeen, Observer, PROGRESS_EVERY, Progress, RecorderId, RunReport, RunStatus,
 };
 use crate::error::SimulationError;
+use crate::names::Names;
 use crate::simulation::Simulation;
 use nalgebra::Vector3;
 use quad_dynamics::{Flight, Input, LevelModel, QuadrotorModel, StateOf};
@@ -43,7 +44,7 @@ pub struct Rollout<M: QuadrotorModel<f64>, C: Controller<f64>> {
     model: M,
     controller: C,
     step: StepSize,
-    names: Vec<String>,
+    names: Names,
     courses: Vec<Course>,
     flights: Vec<FlyingOf<M, C>>,
     scene: Vec<Published>,
@@ -54,7 +55,7 @@ pub struct Rollout<M: QuadrotorModel<f64>, C: Controller<f64>> {
     k: u64,
     now_ns: u64,
     begun: bool,
-    diverged: Option<(usize, Option<LastSeen>)>,
+    diverged: Option<(usize, Invalid, Option<LastSeen>)>,
 }
 
 struct Recorder {
@@ -69,7 +70,8 @@ impl<M: QuadrotorModel<f64>, C: Controller<f64>> fmt::Debug for Rollout<M, C> {
         write!(
             f,
             "Rollout {{ names: {:?}, now_ns: {} }}",
-            self.names, self.now_ns
+            &self.names[..],
+            self.now_ns
         )
     }
 }
@@ -89,7 +91,7 @@ where
             model,
             controller,
             step,
-            names: Vec::new(),
+            names: Names::default(),
             courses: Vec::new(),
             flights: Vec::new(),
             scene: Vec::new(),
@@ -117,16 +119,13 @@ where
         if self.begun || !self.recorders.is_empty() {
             return Err(SimulationError::AlreadyBegun { name });
         }
-        if self.names.contains(&name) {
-            return Err(SimulationError::DuplicateName { name });
-        }
+        (self.names.add(name)).map_err(|name| SimulationError::DuplicateName { name })?;
         let hover = self.model.hover(position, yaw);
         self.scene.push(published(&self.model.flight(&hover.state)));
         self.flights.push(Flying {
             state: hover.state,
             feedback: self.controller.clone().into(),
         });
-        self.names.push(name);
         self.courses.push(Box::new(course));
         Ok(())
     }
@@ -164,27 +163,31 @@ where
     fn advance_finite(&mut self, k: u64) {
         let (start, before) = (self.k, self.flights.clone());
         self.advance(k);
-        let is_bad = |of: &Self, id: usize| !published(&of.model.flight(&of.flights[id].state)).is_finite();
-        // A state that is not finite stays so: one look at the end is enough to know that there is one.
-        if (0..self.flights.len()).any(|id| is_bad(self, id)) {
+        let is_bad = |of: &Self, id: usize| {
+            published(&of.model.flight(&of.flights[id].state))
+                .check_flight()
+                .err()
+        };
+        // A state that is not finite stays so, and one that is too fast for its model does not often return: one look at the end is enough.
+        if (0..self.flights.len()).any(|id| is_bad(self, id).is_some()) {
             (self.k, self.flights) = (start, before);
             for n in start + 1..=k {
                 let last = self.flights.clone();
                 self.advance(n);
-                let bad = (0..self.flights.len()).filter(|&id| is_bad(self, id));
-                if let Some(id) = bad.min_by_key(|&id| &self.names[id]) {
+                let bad = (0..self.flights.len()).filter_map(|id| Some((id, is_bad(self, id)?)));
+                if let Some((id, why)) = bad.min_by_key(|&(id, _)| &self.names[id]) {
                     let seen = LastSeen {
                         time_s: seconds((n - 1) * self.step.ns()),
                         published: published(&self.model.flight(&last[id].state)),
                     };
-                    self.diverged = Some((id, Some(seen)));
+                    self.diverged = Some((id, why, Some(seen)));
                     break;
                 }
             }
         }
         for (seen, flight) in self.scene.iter_mut().zip(&self.flights) {
             let now = published(&self.model.flight(&flight.state));
-            if now.is_finite() {
+            if now.check_flight().is_ok() {
                 *seen = now;
             }
         }
@@ -221,9 +224,11 @@ where
     }
 
     fn diverged(&self) -> Option<RunStatus> {
-        let (id, last) = self.diverged?;
+        let (id, why, last) = self.diverged?;
         Some(RunStatus::Diverged {
             agent: self.names[id].clone(),
+            why,
+            likely_cause: None,
             last: last.map(Box::new),
         })
     }
@@ -243,7 +248,7 @@ where
     }
 
     fn published(&self, name: &str) -> Option<&Published> {
-        let id = self.names.iter().position(|other| other == name)?;
+        let id = self.names.find(name)?;
         Some(&self.scene[id])
     }
 
@@ -288,9 +293,10 @@ where
             return Err(SimulationError::Empty);
         }
         if !self.begun
-            && let Some(id) = (0..self.scene.len()).find(|&id| !self.scene[id].is_finite())
+            && let Some((id, why)) =
+                (0..self.scene.len()).find_map(|id| Some((id, self.scene[id].check_flight().err()?)))
         {
-            self.diverged = Some((id, None));
+            self.diverged = Some((id, why, None));
         }
         self.begun = true;
         let first = self.k;

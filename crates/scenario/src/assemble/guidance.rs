@@ -39,7 +39,8 @@ impl Task {
     /// The task of a quadrotor in gravity g, m/s².
     pub(super) fn of(file: &QuadrotorFile, gravity: f64, law: TiltLaw) -> Result<Self, ScenarioError> {
         let agent = &file.name;
-        let mission = |waypoints: &[Waypoint]| {
+        let mission = |waypoints: &[Waypoint], key| {
+            super::finite_waypoints(&format!("quadrotor \"{agent}\""), key, waypoints)?;
             Mission::through(waypoints, gravity, law)
                 .map(Self::Mission)
                 .map_err(|source| ScenarioError::Trajectory {
@@ -55,9 +56,18 @@ impl Task {
             ReferenceFile::Steps { steps } => set_points(agent, steps),
             ReferenceFile::Waypoints { waypoints } => {
                 let waypoints: Vec<Waypoint> = waypoints.iter().map(Waypoint::from).collect();
-                mission(&waypoints)
+                mission(&waypoints, "reference.waypoints")
             }
-            ReferenceFile::Polynomial(polynomial) => mission(&polynomial.waypoints()),
+            ReferenceFile::Polynomial(polynomial) => {
+                for (key, value) in polynomial.conditions() {
+                    super::finite(
+                        &format!("quadrotor \"{agent}\""),
+                        format!("reference.{key}"),
+                        value,
+                    )?;
+                }
+                mission(&polynomial.waypoints(), "reference")
+            }
             ReferenceFile::Circle(circle) => turn(agent, circle, gravity, law),
             ReferenceFile::Follow {
                 agent: leader,
@@ -199,7 +209,7 @@ fn turn(agent: &str, circle: &Circle, gravity: f64, law: TiltLaw) -> Result<Task
     if circle.period_s == 0.0 {
         return Err(ScenarioError::Number {
             agent: format!("quadrotor \"{agent}\""),
-            key: "reference.period_s",
+            key: "reference.period_s".to_owned(),
             value: circle.period_s,
             must: "other than zero",
         });

@@ -12,17 +12,21 @@ pub(crate) use guidance::Task;
 use crate::cost::{self, Judged};
 use crate::error::ScenarioError;
 use crate::file::{OutputFile, Scenario, StopFile};
-use crate::library::Files;
+use crate::library::{Files, Library};
 use ets::Station;
 use nalgebra::Vector3;
 use quad_dynamics::{Level, Vehicle};
-use quad_ndi::Law;
+use quad_ndi::{Law, Waypoint};
 use sifre::black_box::Selection;
-use sifre::{Member, StepSize};
+use sifre::{FARTHEST_M, Member, StepSize};
+use start::Starts;
 use std::sync::Arc;
 
 /// What may not be in a name: it separates keys and columns.
-const FORBIDDEN: [char; 6] = ['.', ',', '"', '\n', '\r', '*'];
+const FORBIDDEN: [char; 4] = ['.', ',', '"', '*'];
+
+/// Most characters of a name: more fit into no line of a report.
+const LONGEST_NAME: usize = 100;
 
 /// The agents of a scenario, and what is to happen to them.
 #[derive(Debug)]
@@ -104,15 +108,17 @@ impl Scenario {
             notes: Vec::new(),
             judged: Vec::new(),
         };
+        let library = Library::new(files);
+        let starts = Starts::of(self, &library);
         for file in &self.quadrotor {
-            quadrotor::add(&mut built, self, file, files)?;
+            quadrotor::add(&mut built, self, file, (&library, &starts))?;
         }
         if self.stop.arrived_within_m.is_some() && built.goals.len() < self.quadrotor.len() {
             let note = "stop.arrived_within_m is never met: a quadrotor on a circle or following another never arrives";
             built.notes.push(note.to_owned());
         }
         for file in &self.ets {
-            station::add(&mut built, own_seed(self.seed, &file.name), file, files)?;
+            station::add(&mut built, own_seed(self.seed, &file.name), file, &library)?;
         }
         for file in &self.target {
             station::add_target(&mut built, file)?;
@@ -136,7 +142,11 @@ impl Scenario {
         let duration_s = self.duration_s;
         StepSize::from_seconds(duration_s)
             .map_err(|source| ScenarioError::Duration { duration_s, source })?;
-        let bad = |name: &&str| name.trim().is_empty() || name.contains(FORBIDDEN);
+        if !is_word(&self.name) {
+            let name = self.name.clone();
+            return Err(ScenarioError::Title { name });
+        }
+        let bad = |name: &&str| name.trim().is_empty() || name.contains(FORBIDDEN) || !is_word(name);
         if let Some(name) = self.names().find(bad) {
             let name = name.to_owned();
             return Err(ScenarioError::Name { name });
@@ -163,7 +173,7 @@ impl Scenario {
         match stop.arrived_within_m {
             Some(value) if !(value.is_finite() && value > 0.0) => Err(ScenarioError::Number {
                 agent: "stop".to_owned(),
-                key: "arrived_within_m",
+                key: "arrived_within_m".to_owned(),
                 value,
                 must: "positive and finite",
             }),
@@ -190,6 +200,11 @@ impl Built {
     }
 }
 
+/// Whether a name can be printed, as it is and in one line.
+fn is_word(name: &str) -> bool {
+    output::is_printable(name) && name.chars().count() <= LONGEST_NAME
+}
+
 /// The seed of an agent: by the scenario's seed and its name (FNV-1a), so that no two agents are twins and their order
 /// doesn't matter.
 fn own_seed(seed: u64, name: &str) -> u64 {
@@ -199,15 +214,33 @@ fn own_seed(seed: u64, name: &str) -> u64 {
     bytes.fold(OFFSET, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
 }
 
-/// Refuses NaN and infinities.
-fn finite(agent: &str, key: &'static str, value: f64) -> Result<(), ScenarioError> {
-    if value.is_finite() {
+/// Refuses NaN, infinities and numbers that are farther off than anything here: [`FARTHEST_M`] of lengths, as many of speeds and angles.
+fn finite(agent: &str, key: impl Into<String>, value: f64) -> Result<(), ScenarioError> {
+    if value.abs() <= FARTHEST_M {
         return Ok(());
     }
     Err(ScenarioError::Number {
         agent: agent.to_owned(),
-        key,
+        key: key.into(),
         value,
-        must: "finite",
+        must: "finite and at most 1e9 in magnitude",
     })
+}
+
+/// Refuses waypoints with such numbers; `key` is their list's.
+fn finite_waypoints(agent: &str, key: &str, waypoints: &[Waypoint]) -> Result<(), ScenarioError> {
+    for (k, point) in waypoints.iter().enumerate() {
+        let groups = [
+            ("time_s", &[point.time_s][..]),
+            ("position_m", &point.position_m),
+            ("velocity_m_s", &point.velocity_m_s),
+            ("yaw_deg", &[point.yaw_rad.to_degrees()]),
+        ];
+        for (what, values) in groups {
+            for value in values {
+                finite(agent, format!("{key}[{k}].{what}"), *value)?;
+            }
+        }
+    }
+    Ok(())
 }

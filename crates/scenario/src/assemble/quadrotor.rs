@@ -1,31 +1,32 @@
 //! Quadrotors.
 
-use super::{AgentInfo, AgentKind, Built, Task, controller, estimator, own_seed, start};
+use super::start::Starts;
+use super::{AgentInfo, AgentKind, Built, Task, controller, estimator, own_seed};
 use crate::error::ScenarioError;
 use crate::file::{LevelChange, QuadrotorFile, Scenario, TurbulenceFile};
-use crate::library::{Files, vehicle};
+use crate::library::Library;
 use quad_dynamics::{CommandLimits, Level, Phenomenon, PhenomenonSet};
 use sifre::quadrotor::{Gusts, LevelChoice, ProcessNoiseSource, Script, Setup, Start, Turbulence, Wind};
 use sifre::{Facing, Member, ModelQuadrotor, Schedule, ScheduleError};
 use std::sync::Arc;
 
 /// Adds a quadrotor to what is built.
-pub(super) fn add(
+pub(super) fn add<'a>(
     built: &mut Built,
     scenario: &Scenario,
-    file: &QuadrotorFile,
-    files: &dyn Files,
+    file: &'a QuadrotorFile,
+    (library, starts): (&Library<'_>, &Starts<'a>),
 ) -> Result<(), ScenarioError> {
-    let flown = Arc::new(vehicle(&file.name, &file.vehicle, &file.parameters, files)?);
+    let flown = library.vehicle(&file.name, &file.vehicle, &file.parameters)?;
     let believed = match &file.controller.vehicle {
-        Some(name) => Arc::new(vehicle(&file.name, name, &toml::Table::new(), files)?),
+        Some(name) => library.vehicle(&file.name, name, &toml::Table::new())?,
         None => Arc::clone(&flown),
     };
     let law = file.controller.kind.at(file.level);
     let limits = any_phenomenon(file, Phenomenon::InputLimits).then(|| CommandLimits::of(&believed));
     let pilot = controller::assemble(&file.name, &file.controller, law, &believed, limits)?;
     let task = Task::of(file, flown.environment.gravity, law.tilt_law())?;
-    let begin = start::of(scenario, file, files)?;
+    let begin = starts.start(file)?;
 
     built.goals.extend(task.goal(&file.name));
     note_wind(built, file);

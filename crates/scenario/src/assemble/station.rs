@@ -1,9 +1,9 @@
 //! Ground stations and targets.
 
-use super::{AgentInfo, AgentKind, Built, finite};
+use super::{AgentInfo, AgentKind, Built, finite, finite_waypoints};
 use crate::error::ScenarioError;
 use crate::file::{EtsFile, PathFile, TargetFile};
-use crate::library::{Files, station, station_error};
+use crate::library::{Library, station_error};
 use ets::GimbalAxis;
 use quad_ndi::{Trajectory, Waypoint};
 use sifre::{EtsSetup, GimballedEts, Member, Path, Target};
@@ -13,10 +13,14 @@ pub(super) fn add(
     built: &mut Built,
     seed: u64,
     file: &EtsFile,
-    files: &dyn Files,
+    library: &Library<'_>,
 ) -> Result<(), ScenarioError> {
-    let mut station = station(&file.name, &file.station, files)?;
+    let mut station = library.station(&file.name, &file.station)?;
+    let agent = format!("ets \"{}\"", file.name);
     if let Some(position_m) = file.position_m {
+        for value in position_m {
+            finite(&agent, "position_m", value)?;
+        }
         station.pedestal.position = position_m;
     }
     if let Some(heading_deg) = file.heading_deg {
@@ -31,9 +35,6 @@ pub(super) fn add(
     station
         .validate(&format!("{} as \"{}\"", file.station, file.name))
         .map_err(|source| station_error(&file.name, source))?;
-    let agent = format!("ets \"{}\"", file.name);
-    finite(&agent, "pan_deg", file.pan_deg)?;
-    finite(&agent, "tilt_deg", file.tilt_deg)?;
     in_travel(&agent, "pan_deg", file.pan_deg, &station.gimbal.pan)?;
     in_travel(&agent, "tilt_deg", file.tilt_deg, &station.gimbal.tilt)?;
     let setup = EtsSetup {
@@ -81,9 +82,10 @@ pub(super) fn add_target(built: &mut Built, file: &TargetFile) -> Result<(), Sce
     let agent = format!("target \"{}\"", file.name);
     let path = match &file.path {
         PathFile::Fixed { position_m, yaw_deg } => {
-            for &value in position_m.iter().chain([yaw_deg]) {
-                finite(&agent, "a number of the path", value)?;
+            for &value in position_m {
+                finite(&agent, "path.position_m", value)?;
             }
+            finite(&agent, "path.yaw_deg", *yaw_deg)?;
             Path::Fixed {
                 position: (*position_m).into(),
                 yaw: yaw_deg.to_radians(),
@@ -91,6 +93,7 @@ pub(super) fn add_target(built: &mut Built, file: &TargetFile) -> Result<(), Sce
         }
         PathFile::Waypoints { waypoints } => {
             let waypoints: Vec<Waypoint> = waypoints.iter().map(Waypoint::from).collect();
+            finite_waypoints(&agent, "path.waypoints", &waypoints)?;
             let trajectory = Trajectory::through(&waypoints);
             Path::Scripted(trajectory.map_err(|source| ScenarioError::Trajectory {
                 agent: file.name.clone(),

@@ -139,6 +139,13 @@ pub struct Circle {
 }
 
 impl Polynomial {
+    /// Every condition with its key.
+    pub(crate) fn conditions(&self) -> Vec<(String, f64)> {
+        let table = toml::Table::try_from(self).unwrap_or_default();
+        let number = |(key, value): (String, toml::Value)| Some((key, value.as_float()?));
+        table.into_iter().filter_map(number).collect()
+    }
+
     /// The two ends as waypoints.
     pub(crate) fn waypoints(&self) -> [Waypoint; 2] {
         [

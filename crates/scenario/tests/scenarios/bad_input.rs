@@ -61,6 +61,32 @@ fn exact_missing_vehicles_and_stations() {
     );
 }
 
+/// Places so far away that the square of a distance is no number.
+#[test]
+fn exact_numbers_that_are_too_large_are_told_with_their_key() {
+    let limit = "finite and at most 1e9 in magnitude";
+    let target =
+        |path: &str| format!("name = \"x\"\nduration_s = 1\n[[target]]\nname = \"t\"\npath = {path}");
+    says(
+        &target("{ kind = \"fixed\", position_m = [1e308, 0, 0] }"),
+        &["target \"t\": path.position_m = 1e308", limit],
+    );
+    let way = "{ time_s = 0, position_m = [0, 0, 0] }, { time_s = 1, position_m = [0, 1e200, 0] }";
+    says(
+        &target(&format!("{{ kind = \"waypoints\", waypoints = [{way}] }}")),
+        &["path.waypoints[1].position_m = 1e200", limit],
+    );
+    says(
+        &one(SECOND, "start = { position_m = [2e9, 0, 0] }", ""),
+        &["\"alpha\"", "2000000000", "at most 1e9"],
+    );
+    let ets = "[[ets]]\nname = \"station\"\ntracks = \"alpha\"\nposition_m = [0, 0, -1e300]";
+    says(
+        &one(SECOND, "", ets),
+        &["ets \"station\": position_m = -1e300", limit],
+    );
+}
+
 /// The nominal gimbal pans 170 degrees to either side.
 #[test]
 fn exact_gimbals_start_inside_their_travel() {
@@ -132,13 +158,29 @@ fn exact_names() {
     says(&one(SECOND, "", twice), &["two agents", "\"alpha\""]);
     says(
         &one(SECOND, "", &twice.replace("alpha", "a.b")),
-        &["\"a.b\"", "dots"],
+        &["\"a.b\"", "none of them a dot"],
     );
     says(
         &one(SECOND, "", &twice.replace("alpha", "")),
-        &["must not be empty"],
+        &["1 to 100 characters"],
     );
     says("name = \"x\"\nduration_s = 1", &["at least one agent"]);
+    // A terminal's escape, a C1 control, a bidirectional override, a line separator; of an agent and of the scenario.
+    for hostile in [
+        "\\u001b[2J",
+        "\\u009b2J",
+        "\\u202egnp.exe",
+        "a\\u2028b",
+        "a\\nb",
+        &"n".repeat(101),
+    ] {
+        says(
+            &one(SECOND, "", &twice.replace("alpha", hostile)),
+            &["can't be an agent's name"],
+        );
+        let titled = one(SECOND, "", "").replace("name = \"test\"", &format!("name = \"{hostile}\""));
+        says(&titled, &["name = ", "none of them a line break"]);
+    }
 }
 
 #[test]

@@ -148,3 +148,20 @@ fn exact_a_key_that_does_not_exist_is_named() {
         "{unknown}"
     );
 }
+
+/// The station begins to look along the plane of the receiver, where the footprint of its beam is endless.
+#[test]
+fn exact_energies_are_numbers_where_the_beam_is_along_the_receiver() {
+    let text = "name = 'x'\nduration_s = 0.1\n\
+                [[quadrotor]]\nname = 'a'\nfacing = 'st'\nreference = { kind = 'hold', position_m = [5, 0, -2] }\n\
+                [[ets]]\nname = 'st'\ntracks = 'a'\npan_deg = -90\n";
+    let scenario = Scenario::from_toml_str(text, "test").unwrap();
+    let flown = scenario.fly(&(), &Keep::METRICS).unwrap();
+    let metric = |name: &str| flown.metric(name).unwrap();
+    // The beam passes 5 m beside it.
+    assert_eq!(
+        (metric("received_energy_j"), metric("electrical_energy_j")),
+        (0.0, 0.0)
+    );
+    assert!(metric("missed_energy_j") > 0.0);
+}

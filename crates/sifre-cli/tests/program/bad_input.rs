@@ -98,13 +98,14 @@ fn exact_outputs_that_are_inputs_or_no_recordings_exit_with_2() {
         .exits(2)
         .says(&["own.toml is an input and would be overwritten"]);
     let vehicle = "quadrotor.alpha.vehicle=\"drone.toml\"";
-    for output in [
-        ["--set", "output.path=\"./drone.toml\""],
-        ["--save", "drone.toml"],
-    ] {
+    let outputs: [&[&str]; 2] = [
+        &["--set", "output.path=\"./drone.toml\""],
+        &["--no-output", "--save", "drone.toml"],
+    ];
+    for output in outputs {
         let arguments = ["run", "-q", "own.toml", "--set", vehicle];
         folder
-            .run(&[&arguments[..], &output].concat())
+            .run(&[&arguments[..], output].concat())
             .exits(2)
             .says(&["drone.toml", "would be overwritten"]);
     }

@@ -14,6 +14,8 @@ mod json_lines;
 mod memory;
 #[cfg(feature = "parquet")]
 mod parquet_box;
+#[cfg(feature = "parquet")]
+mod parquet_reader;
 mod recording;
 mod recovered;
 mod selected;
@@ -26,6 +28,8 @@ pub use json_lines::JsonLinesBox;
 pub use memory::MemoryBox;
 #[cfg(feature = "parquet")]
 pub use parquet_box::ParquetBox;
+#[cfg(feature = "parquet")]
+pub use parquet_reader::ParquetDamage;
 pub use recording::{Recording, Row};
 pub use recovered::Recovered;
 pub use selected::{Selected, Selection};
@@ -82,6 +86,18 @@ pub enum BlackBoxError {
          disk: CSV and JSON lines keep every whole row"
     )]
     Unfinished(parquet::errors::ParquetError),
+    /// A Parquet file whose parts contradict each other.
+    #[cfg(feature = "parquet")]
+    #[error("black box, Parquet: {0}")]
+    Damaged(#[from] ParquetDamage),
+    /// An instant that the clock does not have.
+    #[error("row {row} of the recording is at {time_ns} ns, beyond the clock's end at 2^50 ns")]
+    Time {
+        /// The row, from 1.
+        row: usize,
+        /// The instant, ns.
+        time_ns: u64,
+    },
     /// No description of the channels where it should be.
     #[error("not a recording: {expected} is missing")]
     NoHeader {

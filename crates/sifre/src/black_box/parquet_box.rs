@@ -4,20 +4,18 @@
 //! little from compression, and every reader understands it. Rows are collected to row groups of at most
 //! [`ROW_GROUP_BYTES`] in memory.
 
-use super::{BlackBox, BlackBoxError, Channel, Header, Recording, Recovered};
+use super::{BlackBox, BlackBoxError, Channel, Header};
 use parquet::basic::{Compression, Repetition, Type as Physical};
-use parquet::column::reader::get_typed_column_reader;
 use parquet::data_type::{DataType, DoubleType, Int64Type};
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 use std::io::Write;
 use std::sync::Arc;
 
 /// The key of the channels' description among the file's metadata.
-const KEY: &str = "sifre_recording";
+pub(super) const KEY: &str = "sifre_recording";
 
 /// What is collected before it is written, bytes.
 const ROW_GROUP_BYTES: usize = 8 << 20;
@@ -166,88 +164,4 @@ impl<W: Write + Send + 'static> BlackBox for ParquetBox<W> {
         }
         Ok(())
     }
-}
-
-impl Recording {
-    /// Reads what a [`ParquetBox`] wrote: a [`std::fs::File`], or the bytes of one.
-    ///
-    /// # Errors
-    /// If it can't be read, or is not what a [`ParquetBox`] writes.
-    pub fn from_parquet<C: ChunkReader + 'static>(from: C) -> Result<Self, BlackBoxError> {
-        Self::recover_parquet(from)?.whole()
-    }
-
-    /// Reads the row groups that are whole of what a [`ParquetBox`] wrote.
-    ///
-    /// # Errors
-    /// If the file's end, which describes it, is missing or wrong.
-    pub fn recover_parquet<C: ChunkReader + 'static>(from: C) -> Result<Recovered, BlackBoxError> {
-        let reader = SerializedFileReader::new(from).map_err(BlackBoxError::Unfinished)?;
-        let metadata = reader.metadata().file_metadata();
-        let header = metadata
-            .key_value_metadata()
-            .and_then(|entries| entries.iter().find(|entry| entry.key == KEY))
-            .and_then(|entry| entry.value.as_deref())
-            .ok_or(BlackBoxError::NoHeader {
-                expected: "the description of the channels among the file's metadata",
-            })?;
-        let mut recording = Self::new(Header::channels(header)?);
-        let width = recording.channels().len();
-        let columns = metadata.schema_descr().num_columns();
-        if columns != width + 1 {
-            return Err(BlackBoxError::RowLength {
-                row: 1,
-                expected: width,
-                found: columns.saturating_sub(1),
-            });
-        }
-        let groups = reader.num_row_groups();
-        let read = (0..groups).try_for_each(|group| {
-            let group = reader.get_row_group(group)?;
-            read_group(&mut recording, group.as_ref())
-        });
-        Ok(Recovered::of(recording, read))
-    }
-}
-
-/// Adds the rows of a row group, all of them or none.
-fn read_group(recording: &mut Recording, group: &dyn RowGroupReader) -> Result<(), BlackBoxError> {
-    let width = recording.channels().len();
-    let times = read_column::<Int64Type>(group, 0)?;
-    let values: Vec<_> = (1..=width)
-        .map(|column| read_column::<DoubleType>(group, column))
-        .collect::<Result<_, _>>()?;
-    let mut row = vec![0.0; width];
-    for (k, &time) in times.iter().enumerate() {
-        for (to, column) in row.iter_mut().zip(&values) {
-            *to = column[k];
-        }
-        recording.push(time.cast_unsigned(), &row)?;
-    }
-    Ok(())
-}
-
-fn read_column<T: DataType>(group: &dyn RowGroupReader, column: usize) -> Result<Vec<T::T>, BlackBoxError> {
-    let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-    let expected = group.metadata().schema_descr().column(column).physical_type();
-    if expected != T::get_physical_type() {
-        return Err(BlackBoxError::NotANumber {
-            row: 1,
-            text: expected.to_string(),
-            expected: "column of INT64 times and DOUBLE numbers",
-        });
-    }
-    let mut reader = get_typed_column_reader::<T>(group.get_column_reader(column)?);
-    let mut values = Vec::with_capacity(rows);
-    while values.len() < rows {
-        let (records, ..) = reader.read_records(rows - values.len(), None, None, &mut values)?;
-        if records == 0 {
-            return Err(BlackBoxError::RowLength {
-                row: values.len() + 1,
-                expected: rows,
-                found: values.len(),
-            });
-        }
-    }
-    Ok(values)
 }

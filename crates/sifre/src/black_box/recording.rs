@@ -38,7 +38,7 @@ impl Recording {
     /// Adds a row.
     ///
     /// # Errors
-    /// [`BlackBoxError::RowLength`] if it has not one number per channel.
+    /// [`BlackBoxError::RowLength`] if it has not one number per channel; [`BlackBoxError::Time`] beyond the clock's end.
     pub fn push(&mut self, time_ns: u64, row: &[f64]) -> Result<(), BlackBoxError> {
         if row.len() != self.channels.len() {
             return Err(BlackBoxError::RowLength {
@@ -46,6 +46,10 @@ impl Recording {
                 expected: self.channels.len(),
                 found: row.len(),
             });
+        }
+        if seconds(time_ns).is_infinite() {
+            let row = self.times_ns.len() + 1;
+            return Err(BlackBoxError::Time { row, time_ns });
         }
         self.times_ns.push(time_ns);
         self.values.extend_from_slice(row);

@@ -264,3 +264,34 @@ fn exact_a_full_disk_is_an_error() {
         Err(BlackBoxError::Parquet(_))
     ));
 }
+
+#[cfg(feature = "parquet")]
+proptest! {
+    /// Whatever bytes are changed, a Parquet file gives no more than it has bytes for: an error before it asks for memory, or rows that fit.
+    #[test]
+    fn prop_a_damaged_parquet_file_holds_no_more_than_its_length(
+        (width, rows) in rows(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
+        let mut parquet = ParquetBox::new(Vec::new());
+        write(&mut parquet, width, &rows);
+        let mut file = parquet.into_inner().unwrap();
+        for (place, byte) in changes {
+            let place = place.index(file.len());
+            file[place] = byte;
+        }
+        let length = file.len();
+        if let Ok(recovered) = Recording::recover_parquet(::bytes::Bytes::from(file)) {
+            let recording = recovered.recording;
+            prop_assert!(recording.len() * (recording.channels().len() + 1) * size_of::<f64>() <= length);
+        }
+    }
+}
+
+#[test]
+fn exact_an_instant_beyond_the_clock_is_refused() {
+    let mut recording = Recording::new(channels(1));
+    recording.push(1 << 50, &[0.0]).unwrap();
+    let error = recording.push((1 << 50) + 1, &[0.0]).unwrap_err();
+    assert!(matches!(error, BlackBoxError::Time { row: 2, .. }), "{error}");
+}

@@ -31,16 +31,18 @@ use crate::black_box::{BlackBox, BlackBoxError, Channel};
 use crate::clock::{StepSize, seconds};
 use crate::error::SimulationError;
 use crate::event::Event;
+use crate::names::Names;
 use crate::simulation::Simulation;
 use group::{Group, Slot};
 use recorder::Recorder;
 use std::any::Any;
+use stop::Watched;
 
 /// Agents, time, and what watches them.
 #[derive(Debug)]
 pub struct Engine {
     /// Names in the order in which the agents were given: the order of rows.
-    names: Vec<String>,
+    names: Names,
     /// Where each of them is.
     places: Vec<Place>,
     groups: Vec<Group>,
@@ -48,7 +50,7 @@ pub struct Engine {
     scene: Vec<Published>,
     recorders: Vec<Recorder>,
     recorders_ever: usize,
-    conditions: Vec<StopCondition>,
+    conditions: Vec<Watched>,
     events: Vec<Event>,
     execution: Execution,
     now_ns: u64,
@@ -68,15 +70,10 @@ impl Engine {
     /// # Errors
     /// No agents, two of one name, an agent that looks at one that isn't there or can't have its step.
     pub fn new(members: Vec<Member>) -> Result<Self, SimulationError> {
-        let names: Vec<String> = members.iter().map(|m| m.agent.name().to_owned()).collect();
+        let names = Names::new(members.iter().map(|m| m.agent.name().to_owned()))
+            .map_err(|name| SimulationError::DuplicateName { name })?;
         if names.is_empty() {
             return Err(SimulationError::Empty);
-        }
-        let mut sorted: Vec<&String> = names.iter().collect();
-        sorted.sort();
-        if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-            let name = pair[0].clone();
-            return Err(SimulationError::DuplicateName { name });
         }
         let mut simulation = Self {
             places: Vec::with_capacity(names.len()),
@@ -138,18 +135,20 @@ impl Engine {
     /// # Errors
     /// If it is on an agent that isn't there.
     pub fn stop_when(&mut self, condition: StopCondition) -> Result<(), SimulationError> {
-        if let StopCondition::Below {
-            who: Who::Agent(name),
-            ..
-        } = &condition
-            && !self.names.contains(name)
-        {
-            return Err(SimulationError::UnknownInCondition {
-                wanted: name.clone(),
-                known: self.names.clone(),
-            });
-        }
-        self.conditions.push(condition);
+        let of = match &condition {
+            StopCondition::Below {
+                who: Who::Agent(name),
+                ..
+            } => {
+                let unknown = || SimulationError::UnknownInCondition {
+                    wanted: name.clone(),
+                    known: self.names.to_vec(),
+                };
+                Some(self.find(name).ok_or_else(unknown)?)
+            }
+            _ => None,
+        };
+        self.conditions.push(Watched { condition, of });
         Ok(())
     }
 
@@ -178,6 +177,11 @@ impl Engine {
         &self.names
     }
 
+    /// The agent of this name, as a [`Scene`] knows it.
+    pub fn find(&self, name: &str) -> Option<AgentId> {
+        self.place(name).map(AgentId)
+    }
+
     /// What the agent of this name has published last.
     pub fn published(&self, name: &str) -> Option<&Published> {
         self.place(name).map(|id| &self.scene[id])
@@ -197,7 +201,7 @@ impl Engine {
     }
 
     fn place(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|other| other == name)
+        self.names.find(name)
     }
 
     fn slot(&self, id: usize) -> &Slot {

@@ -2,7 +2,8 @@
 
 use super::group::Work;
 use super::{Engine, LastSeen, Observer, PROGRESS_EVERY, Phase, Progress, RunReport, RunStatus, Scene};
-use crate::clock::{instant_ns, seconds};
+use crate::agent::Invalid;
+use crate::clock::{StepSize, instant_ns, seconds};
 use crate::error::SimulationError;
 use crate::event::{AgentEvent, Event};
 use crate::speed::Hook;
@@ -81,21 +82,25 @@ impl Engine {
         stop
     }
 
-    /// The agents due publish. One whose numbers are none is not published: its last finite state remains.
+    /// The agents due publish. What is not finite or not valid is not published: the last state that was remains.
     fn publish(&mut self) -> Option<RunStatus> {
-        let mut diverged: Option<(usize, u64)> = None;
+        let mut diverged: Option<(usize, StepSize, Invalid)> = None;
         for group in self.groups.iter().filter(|group| group.next_ns == self.now_ns) {
             for slot in &group.slots {
                 let id = slot.id.0;
-                let first = |(other, _): (usize, u64)| self.names[id] < self.names[other];
-                if slot.agent.publish(&mut self.scene[id], Hook(())).is_err() && diverged.is_none_or(first) {
-                    diverged = Some((id, group.step.ns()));
+                let first = |(other, ..): (usize, _, _)| self.names[id] < self.names[other];
+                if let Err(why) = slot.agent.publish(&mut self.scene[id], Hook(()))
+                    && diverged.is_none_or(first)
+                {
+                    diverged = Some((id, group.step, why));
                 }
             }
         }
-        diverged.map(|(id, step_ns)| RunStatus::Diverged {
+        diverged.map(|(id, step, why)| RunStatus::Diverged {
             agent: self.names[id].clone(),
-            last: self.now_ns.checked_sub(step_ns).map(|ns| {
+            why,
+            likely_cause: self.slot(id).agent.likely_cause(step),
+            last: self.now_ns.checked_sub(step.ns()).map(|ns| {
                 let (time_s, published) = (seconds(ns), self.scene[id]);
                 Box::new(LastSeen { time_s, published })
             }),

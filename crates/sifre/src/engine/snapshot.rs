@@ -138,7 +138,7 @@ impl Engine {
             names
         };
         let theirs = sorted(snapshot.agents.iter().map(|agent| agent.name.clone()).collect());
-        let ours = sorted(self.names.clone());
+        let ours = sorted(self.names.to_vec());
         if theirs != ours {
             return Err(SnapshotError::OtherAgents {
                 snapshot: theirs,

@@ -1,9 +1,10 @@
 //! When and why a run ends, and who watches it.
 
-use crate::agent::Published;
+use crate::agent::{AgentId, Invalid, Published};
 use crate::black_box::BlackBoxError;
 use crate::clock::seconds;
 use crate::event::Event;
+use crate::names::Names;
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -21,7 +22,7 @@ pub enum Who {
 pub struct Scene<'a> {
     /// The instant, ns.
     pub time_ns: u64,
-    pub(super) names: &'a [String],
+    pub(super) names: &'a Names,
     pub(super) published: &'a [Published],
 }
 
@@ -31,18 +32,22 @@ impl Scene<'_> {
         seconds(self.time_ns)
     }
 
+    /// What an agent has published last; asked at every instant, cheaper than by name.
+    pub fn published(&self, agent: AgentId) -> &Published {
+        &self.published[agent.0]
+    }
+
     /// What the agent of this name has published last.
     pub fn of(&self, name: &str) -> Option<&Published> {
-        let place = self.names.iter().position(|other| other == name)?;
-        Some(&self.published[place])
+        Some(&self.published[self.names.find(name)?])
     }
 }
 
 /// A question about a [`Scene`].
 pub type Test = Box<dyn Fn(&Scene<'_>) -> bool + Send>;
 
-/// Ends a run besides its end time. Asked at every instant of an agent. (That an agent's numbers stop being numbers
-/// always ends a run.)
+/// Ends a run besides its end time. Asked at every instant of an agent. (That an agent's state is not finite any more,
+/// or not one that its model is valid for, always ends a run.)
 pub enum StopCondition {
     /// An agent's height `−z` is less than this, m.
     Below {
@@ -76,29 +81,38 @@ impl StopCondition {
             test: Box::new(test),
         }
     }
+}
 
+/// A condition, and the agent that it names.
+#[derive(Debug)]
+pub(super) struct Watched {
+    pub(super) condition: StopCondition,
+    pub(super) of: Option<AgentId>,
+}
+
+impl Watched {
     /// Why to stop now, if it is to be.
     pub(super) fn met(&self, scene: &Scene<'_>) -> Option<RunStatus> {
-        match self {
-            Self::Below { who, height_m } => {
-                let mut all = scene.names.iter().zip(scene.published);
+        match &self.condition {
+            StopCondition::Below { height_m, .. } => {
                 let below = |published: &Published| -published.position.z < *height_m;
-                let (agent, published) = match who {
+                let (agent, published) = match self.of {
+                    Some(id) => (&scene.names[id.0], scene.published(id)),
                     // The lowest, so that the order of agents doesn't matter.
-                    Who::Anyone => {
-                        all.filter(|(_, published)| below(published))
-                            .max_by(|(a, p), (b, q)| {
-                                p.position.z.total_cmp(&q.position.z).then_with(|| b.cmp(a))
-                            })?
-                    }
-                    Who::Agent(name) => all.find(|(other, p)| *other == name && below(p))?,
+                    None => (scene.names.iter().zip(scene.published))
+                        .filter(|(_, published)| below(published))
+                        .max_by(|(a, p), (b, q)| {
+                            p.position.z.total_cmp(&q.position.z).then_with(|| b.cmp(a))
+                        })?,
                 };
-                Some(RunStatus::Below {
+                below(published).then(|| RunStatus::Below {
                     agent: agent.clone(),
                     height_m: -published.position.z,
                 })
             }
-            Self::When { name, test } => test(scene).then(|| RunStatus::Condition { name: name.clone() }),
+            StopCondition::When { name, test } => {
+                test(scene).then(|| RunStatus::Condition { name: name.clone() })
+            }
         }
     }
 }
@@ -112,13 +126,26 @@ impl fmt::Debug for StopCondition {
     }
 }
 
-/// The last finite state that an agent published.
+/// The last valid state that an agent published.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LastSeen {
     /// When, s.
     pub time_s: f64,
     /// What.
     pub published: Published,
+}
+
+impl fmt::Display for LastSeen {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Published {
+            position, velocity, ..
+        } = &self.published;
+        let ([x, y, z], [u, v, w]): ([f64; 3], [f64; 3]) = ((*position).into(), (*velocity).into());
+        write!(
+            f,
+            "at [{x:.3}, {y:.3}, {z:.3}] m with [{u:.3}, {v:.3}, {w:.3}] m/s"
+        )
+    }
 }
 
 /// How a run ended. Whatever it was, all that was computed and recorded is kept.
@@ -138,11 +165,15 @@ pub enum RunStatus {
         /// Its name.
         name: String,
     },
-    /// An agent's numbers stopped being numbers.
+    /// An agent's state is not finite any more, or has left the validity of its model.
     Diverged {
         /// The agent; the first by name if there are several.
         agent: String,
-        /// The last finite state; `None` if it had none from the start.
+        /// What is wrong with its state.
+        why: Invalid,
+        /// What probably made it so, in words.
+        likely_cause: Option<String>,
+        /// The last state that was valid; `None` if there was none from the start.
         last: Option<Box<LastSeen>>,
     },
     /// The filter of an agent's estimator refused to go on; it keeps its last good belief.
@@ -176,12 +207,18 @@ impl fmt::Display for RunStatus {
             Self::Condition { name } => write!(f, "{name}"),
             Self::Diverged {
                 agent,
-                last: Some(last),
+                why,
+                likely_cause,
+                last,
             } => {
-                write!(f, "\"{agent}\" diverged after {} s", last.time_s)
-            }
-            Self::Diverged { agent, last: None } => {
-                write!(f, "\"{agent}\" begins with numbers that are none")
+                match last {
+                    Some(last) => write!(f, "\"{agent}\" diverged after {} s, {last}: {why}", last.time_s),
+                    None => write!(f, "\"{agent}\" can't begin: {why}"),
+                }?;
+                match likely_cause {
+                    Some(cause) => write!(f, "; likely cause: {cause}"),
+                    None => Ok(()),
+                }
             }
             Self::EstimatorFailed { agent, reason } => {
                 write!(f, "the estimator of \"{agent}\" failed: {reason}")
@@ -234,5 +271,39 @@ impl Observer for () {}
 impl<F: FnMut(&Progress) -> ControlFlow<()>> Observer for F {
     fn progress(&mut self, progress: &Progress) -> ControlFlow<()> {
         self(progress)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::agent::Member;
+    use crate::names::tests::LOOKUPS;
+    use crate::{Engine, Path, StepSize, Target};
+    use nalgebra::Vector3;
+
+    /// A look-up per condition where it is set, and none at any instant, however many agents there are.
+    #[test]
+    fn exact_nobody_is_looked_up_by_name_while_a_simulation_runs() {
+        const AGENTS: usize = 100;
+        let name = |k: usize| format!("target-{k}");
+        let at = Path::Fixed {
+            position: Vector3::new(0.0, 0.0, -1.0),
+            yaw: 0.0,
+        };
+        let member = |k| Member::new(Target::new(name(k), at.clone()), StepSize::MILLISECOND);
+        let mut simulation = Engine::new((0..AGENTS).map(member).collect()).unwrap();
+        LOOKUPS.set(0);
+        for k in 0..AGENTS {
+            let condition = StopCondition::Below {
+                who: Who::Agent(name(k)),
+                height_m: 0.5,
+            };
+            simulation.stop_when(condition).unwrap();
+        }
+        assert_eq!(LOOKUPS.get(), AGENTS);
+        let end = simulation.run(0.02, &mut ()).unwrap();
+        assert!(end.status.is_completed());
+        assert_eq!(LOOKUPS.get(), AGENTS);
     }
 }

@@ -14,6 +14,7 @@
 //! With an [`Estimation`] in the loop `flight_k` is what a Kalman filter makes of sensors; its file states how.
 
 mod air;
+mod cause;
 mod estimation;
 mod gusts;
 mod hover;
@@ -33,8 +34,9 @@ pub use recorded::{Pose, RecordedFlightError, RecordedQuadrotor};
 pub use rule::{LevelRule, RuleError};
 pub use setup::{LevelChoice, QuadrotorError, Script, Setup, Start};
 
-use crate::agent::{Agent, AgentId, Directory, MemoryError, Moment, Published};
+use crate::agent::{Agent, AgentId, Directory, Invalid, MemoryError, Moment, Published};
 use crate::black_box::Channel;
+use crate::clock::StepSize;
 use crate::error::BindError;
 use crate::event::AgentEvent;
 use crate::exact::plain;
@@ -353,6 +355,17 @@ impl Agent for ModelQuadrotor {
                 body_rates: flight.body_rates,
             },
         )
+    }
+
+    fn publish(&self, to: &mut Published, _: Hook) -> Result<(), Invalid> {
+        let published = self.published();
+        published.check_flight()?;
+        *to = published;
+        Ok(())
+    }
+
+    fn likely_cause(&self, step: StepSize) -> Option<String> {
+        cause::of(self, step)
     }
 
     fn decide(&mut self, now: &Moment<'_>) -> Option<AgentEvent> {

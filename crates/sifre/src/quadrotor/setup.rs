@@ -4,6 +4,7 @@ use super::air::{AirError, ProcessNoiseSource, Wind, check_speed};
 use super::estimation::{Estimation, EstimationSetupError};
 use super::pilot::Pilot;
 use super::rule::{LevelRule, RuleError};
+use crate::agent::FARTHEST_M;
 use crate::guidance::Guidance;
 use crate::schedule::{Schedule, ScheduleError};
 use nalgebra::Vector3;
@@ -227,7 +228,7 @@ impl Setup {
         let [x, y, z] = self.start.position_m;
         let [u, v, w] = self.velocity_m_s;
         let start = [x, y, z, self.start.yaw_rad, u, v, w];
-        if let Some(value) = start.into_iter().find(|x| !x.is_finite()) {
+        if let Some(value) = start.into_iter().find(|x| x.is_nan() || x.abs() > FARTHEST_M) {
             let name = self.name.clone();
             return Err(QuadrotorError::BadStart { name, value });
         }
@@ -295,8 +296,10 @@ pub enum QuadrotorError {
         /// Why.
         source: Box<EstimationSetupError>,
     },
-    /// A start that isn't finite.
-    #[error("quadrotor \"{name}\": it can't start at {value}: position, heading and velocity must be finite")]
+    /// A start that isn't finite, or is farther off than [`FARTHEST_M`].
+    #[error(
+        "quadrotor \"{name}\": it can't start at {value}: position, heading and velocity must be numbers of at most {FARTHEST_M:e} in magnitude"
+    )]
     BadStart {
         /// The agent.
         name: String,

@@ -107,7 +107,7 @@ fn agree_where_a_flight_diverges() {
     let mut engine = Engine::new(vec![Member::new(ModelQuadrotor::new(setup).unwrap(), ms(2.0))]).unwrap();
     let by_engine = engine.run(1.0, &mut ()).unwrap();
     let last = |status: &RunStatus| match status {
-        RunStatus::Diverged { agent, last } => (agent.clone(), **last.as_ref().unwrap()),
+        RunStatus::Diverged { agent, last, .. } => (agent.clone(), **last.as_ref().unwrap()),
         other => panic!("{other}"),
     };
     assert_eq!(last(&report.status), last(&by_engine.status));

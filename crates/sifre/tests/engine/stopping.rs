@@ -91,6 +91,7 @@ fn exact_divergence_keeps_the_last_state() {
         let RunStatus::Diverged {
             agent,
             last: Some(last),
+            ..
         } = &report.status
         else {
             panic!("{:?}", report.status)
