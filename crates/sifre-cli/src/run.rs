@@ -3,6 +3,7 @@
 use crate::disk::{self, Beside};
 use crate::exit::{Exit, Failure};
 use crate::report::{self, Report};
+use crate::saved::Origin;
 use crate::varied::{self, setting};
 use crate::{interrupt, recorder, saved};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -77,8 +78,9 @@ fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<
     let built = scenario.build(&beside)?;
     check_outputs(scenario, arguments)?;
     let selection = built.selection();
+    let origin = Origin::of(scenario, &beside)?;
     let mut run = match &arguments.resume {
-        Some(from) => saved::resume(built, from)?,
+        Some(from) => saved::resume(built, &origin, from)?,
         None => built.start()?,
     };
     if arguments.resume.is_some() {
@@ -101,7 +103,7 @@ fn fly(scenario: &Scenario, arguments: &Arguments, bar: &ProgressBar) -> Result<
             let note = format!("{} not written: the flight diverged", to.display());
             flown.notes.push(note);
         }
-        Some(to) => saved::save(&run, to)?,
+        Some(to) => saved::save(&run, origin, to)?,
         None => {}
     }
     Ok(Report {

@@ -1,23 +1,134 @@
-//! Flights saved to go on later: the engine's snapshots as files.
+//! Flights saved to go on later: the engine's snapshots as files, each with check sums of what it was saved from.
+//!
+//! ```text
+//! {"sifre_saved_flight":1, "check_sum":"…", "of":{"agents":"…", "files":{"drone.toml":"…"}}, "flight":{…}}
+//! ```
+//!
+//! `check_sum` is that of the rest, `agents` that of what the scenario says of its agents and seed, `files` those of the vehicles and
+//! stations that it names. Where a flight begins (starts, levels, pan and tilt), how long it lasts, what ends it and what is recorded may change.
 
-use crate::disk;
+use crate::disk::{self, Beside};
 use crate::exit::Failure;
-use scenario::{AgentInfo, AgentKind, Built, Run};
-use sifre::{ModelQuadrotor, SimulationSnapshot, SnapshotError};
-use std::fs::File;
-use std::io::BufReader;
+use output::checksum;
+use scenario::{AgentInfo, AgentKind, Built, Files, Run, STATIONS, Scenario, VEHICLES};
+use serde::{Deserialize, Serialize};
+use sifre::{ModelQuadrotor, SimulationSnapshot};
+use std::collections::BTreeMap;
 use std::path::Path;
 
+/// Version of the file.
+const FORMAT: u32 = 1;
+
+/// Most bytes of a file: some hundred thousand quadrotors.
+const LONGEST: u64 = 1 << 30;
+
+/// Keys of a scenario that may change.
+const FREE: [&str; 6] = ["name", "description", "duration_s", "stop", "output", "optimise"];
+
+/// Keys of an agent that are about its start, by the kind of agent.
+const STARTS: [(&str, &[&str]); 2] = [
+    ("quadrotor", &["level", "phenomena", "start"]),
+    ("ets", &["pan_deg", "tilt_deg"]),
+];
+
+/// A saved flight on disk.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Saved {
+    sifre_saved_flight: u32,
+    check_sum: String,
+    of: Origin,
+    flight: SimulationSnapshot,
+}
+
+/// What a flight was saved from.
+#[derive(PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Origin {
+    agents: String,
+    files: BTreeMap<String, String>,
+}
+
+impl Origin {
+    /// That of a scenario.
+    pub(crate) fn of(scenario: &Scenario, beside: &Beside) -> Result<Self, Failure> {
+        let mut table = toml::Table::try_from(scenario)
+            .map_err(|error| Failure::Usage(format!("the scenario can't be written as TOML: {error}")))?;
+        for key in FREE {
+            table.remove(key);
+        }
+        for (kind, keys) in STARTS {
+            let agents = table.get_mut(kind).and_then(toml::Value::as_array_mut);
+            for agent in agents.into_iter().flatten().filter_map(toml::Value::as_table_mut) {
+                for key in keys {
+                    agent.remove(*key);
+                }
+            }
+        }
+        let known: BTreeMap<&str, &str> = VEHICLES.into_iter().chain(STATIONS).collect();
+        let sum = |name: &str| match known.get(name) {
+            Some(text) => Ok(checksum(text.as_bytes())),
+            None => beside
+                .text(name)
+                .map(|text| checksum(text.as_bytes()))
+                .map_err(|source| Failure::Read {
+                    path: beside.path(name),
+                    source,
+                }),
+        };
+        Ok(Self {
+            agents: checksum(table.to_string().as_bytes()),
+            files: scenario
+                .named_files()
+                .map(|name| Ok((name.to_owned(), sum(name)?)))
+                .collect::<Result<_, Failure>>()?,
+        })
+    }
+
+    /// Why a flight that was saved from another can't go on in this one.
+    fn refuses(&self, other: &Self) -> Option<String> {
+        let changed = |(name, sum): &(&String, &String)| other.files.get(*name).is_some_and(|s| s != *sum);
+        if let Some((name, _)) = self.files.iter().find(changed) {
+            return Some(format!("{name} is not as it was when the flight was saved"));
+        }
+        (self != other).then(|| {
+            "its agents or its seed are not those with which the flight was saved; only their starts, duration_s, stop and output may change".to_owned()
+        })
+    }
+}
+
+impl Saved {
+    /// The check sum of all but itself. Numbers come back from JSON bit for bit, so it is the same after reading.
+    fn sum(&self) -> Result<String, serde_json::Error> {
+        Ok(checksum(
+            serde_json::to_string(&(&self.of, &self.flight))?.as_bytes(),
+        ))
+    }
+}
+
 /// The flight of a scenario, going on from a file.
-pub(crate) fn resume(built: Built, from: &Path) -> Result<Run, Failure> {
-    let file = File::open(from).map_err(|source| Failure::Read {
-        path: from.to_owned(),
-        source,
-    })?;
-    let refuse =
-        |error: SnapshotError| Failure::Usage(format!("{}: not a saved flight: {error}", from.display()));
-    let snapshot = SimulationSnapshot::read_json(BufReader::new(file)).map_err(refuse)?;
-    let run = built.resume(&snapshot)?;
+pub(crate) fn resume(built: Built, origin: &Origin, from: &Path) -> Result<Run, Failure> {
+    let text = disk::read_up_to(from, LONGEST)?;
+    let refuse = |why: String| Failure::Usage(format!("{}: not a saved flight: {why}", from.display()));
+    let saved: Saved = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
+    if saved.sifre_saved_flight != FORMAT {
+        let found = saved.sifre_saved_flight;
+        return Err(refuse(format!(
+            "it has format {found}, this version reads format {FORMAT}"
+        )));
+    }
+    if saved.check_sum != saved.sum().map_err(|error| refuse(error.to_string()))? {
+        return Err(refuse(
+            "it was changed since it was written, its check sum differs".to_owned(),
+        ));
+    }
+    if let Some(why) = origin.refuses(&saved.of) {
+        return Err(Failure::Usage(format!(
+            "{}: the flight can't go on in this scenario: {why}",
+            from.display()
+        )));
+    }
+    let run = built.resume(&saved.flight)?;
     let (now_s, end_s) = (run.simulation.now_s(), run.duration_s);
     if now_s >= end_s {
         return Err(Failure::Usage(format!(
@@ -47,11 +158,18 @@ pub(crate) fn notes(run: &Run) -> Vec<String> {
     run.agents.iter().filter_map(differs).collect()
 }
 
-/// Writes the flight as it is, whole at any time.
-pub(crate) fn save(run: &Run, to: &Path) -> Result<(), Failure> {
-    let mut text = Vec::new();
-    let written = run.simulation.save().and_then(|s| s.write_json(&mut text));
-    written.map_err(|error| Failure::Flight(format!("{}: can't be saved: {error}", to.display())))?;
+/// Writes the flight as it is, complete at any time.
+pub(crate) fn save(run: &Run, of: Origin, to: &Path) -> Result<(), Failure> {
+    let refuse = |why: String| Failure::Flight(format!("{}: can't be saved: {why}", to.display()));
+    let flight = run.simulation.save().map_err(|error| refuse(error.to_string()))?;
+    let mut saved = Saved {
+        sifre_saved_flight: FORMAT,
+        check_sum: String::new(),
+        of,
+        flight,
+    };
+    saved.check_sum = saved.sum().map_err(|error| refuse(error.to_string()))?;
+    let text = serde_json::to_string(&saved).map_err(|error| refuse(error.to_string()))?;
     disk::replace(to, text)
 }
 

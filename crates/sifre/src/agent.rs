@@ -27,6 +27,9 @@ pub const FARTHEST_M: f64 = 1e9;
 /// Speed of sound at 15 °C, m/s, which no quadrotor reaches: drag and rotors are those of air that is not compressed.
 pub const SPEED_OF_SOUND_M_S: f64 = 340.0;
 
+/// How far a saved attitude may be from a rotation: some thousand roundings of single precision, for files of other programs.
+pub(crate) const ATTITUDE_ERROR: f64 = 1e-4;
+
 /// What others may see of an agent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Published {
@@ -83,6 +86,20 @@ impl Published {
         all[6..15].copy_from_slice(self.rotation.matrix.as_slice());
         all[15..].copy_from_slice(self.body_rates.as_slice());
         all
+    }
+
+    /// Whether it can have been published: finite numbers, and columns of the attitude that are orthogonal unit vectors.
+    pub(crate) fn check(&self) -> Result<(), MemoryError> {
+        MemoryError::check_numbers("what others see", &self.to_array())?;
+        let matrix = self.rotation.matrix;
+        let length = (matrix.tr_mul(&matrix) - nalgebra::Matrix3::identity()).norm();
+        match length < ATTITUDE_ERROR {
+            true => Ok(()),
+            false => Err(MemoryError::Number {
+                what: "the attitude that others see",
+                value: matrix.norm(),
+            }),
+        }
     }
 
     /// The reverse of [`Self::to_array`].
@@ -197,6 +214,43 @@ pub enum MemoryError {
         /// How many there are.
         found: usize,
     },
+    /// A number that no run leads to.
+    #[error("{what} has {value:?}, which no run leads to")]
+    Number {
+        /// What the numbers are.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// Four numbers that are no attitude.
+    #[error("its attitude is a quaternion of length {length}, not 1")]
+    Attitude {
+        /// The length.
+        length: f64,
+    },
+    /// A flight that its model is not valid for.
+    #[error(transparent)]
+    Invalid(#[from] Invalid),
+    /// A place in a list that the agent does not have.
+    #[error("it flies by entry {entry} of its levels, and the script has {count}")]
+    Entry {
+        /// The place, from 0.
+        entry: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// Instants of an estimator that are no successive steps.
+    #[error(
+        "its estimator remembers {time_ns} ns after {before_ns} ns; instants are steps of {step_ns} ns apart"
+    )]
+    Instants {
+        /// An instant, ns.
+        time_ns: u64,
+        /// The one before, ns.
+        before_ns: u64,
+        /// The step, ns.
+        step_ns: u64,
+    },
     /// It asks for a model that can't be built.
     #[error(transparent)]
     Build(#[from] quad_dynamics::BuildError),
@@ -214,6 +268,17 @@ pub enum MemoryError {
 }
 
 impl MemoryError {
+    /// Checks that all numbers are finite, and of a size that a run leads to: below [`FARTHEST_M`], in whatever unit.
+    ///
+    /// # Errors
+    /// [`MemoryError::Number`].
+    pub fn check_numbers(what: &'static str, numbers: &[f64]) -> Result<(), Self> {
+        match numbers.iter().find(|x| x.is_nan() || x.abs() > FARTHEST_M) {
+            Some(&value) => Err(Self::Number { what, value }),
+            None => Ok(()),
+        }
+    }
+
     /// Checks that there are as many numbers as there should be of what they are.
     ///
     /// # Errors

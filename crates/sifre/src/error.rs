@@ -165,6 +165,16 @@ pub enum SnapshotError {
         /// How many there are.
         found: usize,
     },
+    /// Something that happened to nobody, or after the present.
+    #[error(
+        "something happened to \"{agent}\" at {time_ns} ns, which is no agent or later than the snapshot"
+    )]
+    Event {
+        /// The agent.
+        agent: String,
+        /// When, ns.
+        time_ns: u64,
+    },
     /// An agent can't take up its state.
     #[error("agent \"{agent}\": {source}")]
     Memory {

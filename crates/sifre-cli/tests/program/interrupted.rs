@@ -88,7 +88,7 @@ fn exact_an_interrupted_flight_goes_on() {
     interrupt(child).exits(130).says(&["interrupted"]);
     let read = |name: &str| fs::read_to_string(folder.path(name)).unwrap();
     let saved: serde_json::Value = serde_json::from_str(&read("flight.json")).unwrap();
-    let now_s = saved["time_ns"].as_u64().unwrap() as f64 * 1e-9;
+    let now_s = saved["flight"]["time_ns"].as_u64().unwrap() as f64 * 1e-9;
     let end = format!("duration_s={}", now_s.ceil() + 1.0);
     let fly = |more: &[&str]| {
         let arguments = ["run", "-q", &scenario, "--set", &end];

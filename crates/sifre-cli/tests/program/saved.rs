@@ -1,6 +1,7 @@
 //! Flights saved and gone on with.
 
 use crate::support::{Folder, ready};
+use quad_dynamics::vehicle::builtin::CRAZYFLIE_TOML;
 use std::fs;
 
 /// A CSV recording without its two lines of head: units and names.
@@ -94,4 +95,34 @@ fn exact_a_level_of_the_start_is_told_of() {
     ]);
     let on = ["-o", "b.csv", "--resume", "a.json", "--set", "duration_s=11"];
     fly(&on).says(&["\"alpha\" goes on at level 3, where it was; `level = 5` is that of the start"]);
+}
+
+/// Another vehicle, other agents, a changed number, another format: nothing is flown.
+#[test]
+fn exact_what_the_flight_was_not_saved_from_is_refused() {
+    let folder = Folder::new("saved-tampered");
+    folder.write("drone.toml", CRAZYFLIE_TOML);
+    let hover = ready("hover");
+    folder.write("s.toml", fs::read_to_string(&hover).unwrap());
+    let vehicle = "quadrotor.alpha.vehicle=\"drone.toml\"";
+    let fly = |more: &[&str]| {
+        let common = ["run", "-q", "s.toml", "--no-output", "--set", vehicle, "--set"];
+        folder.run(&[&common[..], more].concat())
+    };
+    fly(&["duration_s=0.5", "--save", "flight.json"]).exits(0);
+    let on = |more: &[&str]| fly(&[&["duration_s=1", "--resume", "flight.json"], more].concat());
+    on(&[]).exits(0);
+    on(&["--set", "quadrotor.alpha.reference.position_m=[1, 0, -2]"])
+        .exits(2)
+        .says(&["flight.json", "can't go on in this scenario", "its agents"]);
+    folder.write("drone.toml", CRAZYFLIE_TOML.replace("0.027", "0.028"));
+    on(&[]).exits(2).says(&["drone.toml is not as it was"]);
+    folder.write("drone.toml", CRAZYFLIE_TOML);
+    let whole = fs::read_to_string(folder.path("flight.json")).unwrap();
+    let later = whole.replace("\"time_ns\":500000000", "\"time_ns\":600000000");
+    assert_ne!(later, whole);
+    folder.write("flight.json", later);
+    on(&[]).exits(2).says(&["its check sum differs"]);
+    folder.write("flight.json", whole.replace("flight\":1", "flight\":2"));
+    on(&[]).exits(2).says(&["this version reads format 1"]);
 }

@@ -6,7 +6,7 @@
 
 use super::recorder::first_not_before;
 use super::{Engine, Place};
-use crate::agent::{Member, Published};
+use crate::agent::{Member, MemoryError, Published};
 use crate::clock::StepSize;
 use crate::error::SnapshotError;
 use crate::event::Event;
@@ -145,6 +145,14 @@ impl Engine {
                 simulation: ours,
             });
         }
+        let unknown =
+            |event: &&Event| event.time_ns > snapshot.time_ns || self.names.find(&event.agent).is_none();
+        if let Some(event) = snapshot.events.iter().find(unknown) {
+            return Err(SnapshotError::Event {
+                agent: event.agent.clone(),
+                time_ns: event.time_ns,
+            });
+        }
         self.now_ns = snapshot.time_ns;
         self.phase = snapshot.phase;
         self.events.clone_from(&snapshot.events);
@@ -187,7 +195,13 @@ impl Engine {
         let published: [f64; Published::LEN] = plain(&saved.published)
             .try_into()
             .map_err(|numbers: Vec<f64>| length(Published::LEN, numbers.len()))?;
-        self.scene[id] = Published::from_array(&published);
+        let published = Published::from_array(&published);
+        let memory = |source: MemoryError| SnapshotError::Memory {
+            agent: agent(),
+            source: Box::new(source),
+        };
+        published.check().map_err(memory)?;
+        self.scene[id] = published;
         if let Some(row) = &saved.row {
             if row.len() != slot.row.len() {
                 return Err(length(slot.row.len(), row.len()));
@@ -195,12 +209,7 @@ impl Engine {
             slot.row = plain(row);
         }
         slot.row_is_current = saved.row.is_some();
-        slot.agent
-            .restore(&saved.memory)
-            .map_err(|source| SnapshotError::Memory {
-                agent: agent(),
-                source: Box::new(source),
-            })
+        slot.agent.restore(&saved.memory).map_err(memory)
     }
 }
 

@@ -204,6 +204,12 @@ impl Agent for GimballedEts {
             <EtsState<f64> as Flat<f64>>::LEN,
             state.len(),
         )?;
+        let numbers = memory.face_centre.iter().chain(memory.face_axes.as_flattened());
+        MemoryError::check_numbers(
+            "the receiver that it sees",
+            &numbers.map(|x| x.0).collect::<Vec<_>>(),
+        )?;
+        MemoryError::check_numbers("the station's state", &state)?;
         self.state = EtsState::read(&state);
         self.tracking = memory.tracking;
         self.face = Face {

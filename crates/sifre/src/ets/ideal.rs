@@ -139,7 +139,13 @@ impl Agent for IdealEts {
 
     fn restore(&mut self, memory: &serde_json::Value) -> Result<(), MemoryError> {
         let memory = Memory::deserialize(memory)?;
+        let numbers = memory.face_centre.iter().chain(memory.face_axes.as_flattened());
+        MemoryError::check_numbers(
+            "the receiver that it sees",
+            &numbers.map(|x| x.0).collect::<Vec<_>>(),
+        )?;
         let [pan, tilt] = memory.angles.map(|x| x.0);
+        MemoryError::check_numbers("the station's angles", &[pan, tilt])?;
         self.gimbal = GimbalState::at_rest(pan, tilt);
         self.reaches = memory.reaches;
         self.face = Face {

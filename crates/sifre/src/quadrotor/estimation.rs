@@ -132,6 +132,8 @@ pub(super) struct Estimating {
     sensors: SuiteState,
     /// What the pilot has sent since the latest instant.
     sent: Input<f64>,
+    /// From one instant to the next, ns; zero until it is bound.
+    step_ns: u64,
 }
 
 /// All that it needs to go on.
@@ -175,6 +177,7 @@ impl Estimating {
             estimator: Estimator::new(filter, input, setup.sensors.longest_delay_ns()),
             sensors,
             sent: input,
+            step_ns: 0,
             setup: setup.clone(),
         })
     }
@@ -183,6 +186,7 @@ impl Estimating {
     pub(super) fn bind(&mut self, step_ns: u64) {
         let delay_ns = self.setup.sensors.longest_delay_ns();
         self.estimator.remember(delay_ns.saturating_add(step_ns));
+        self.step_ns = step_ns;
     }
 
     /// The flight is put elsewhere, and the filter told.
@@ -206,7 +210,13 @@ impl Estimating {
         input: &Input<f64>,
         now: &Moment<'_>,
     ) -> Result<(), EstimationError> {
-        if now.time_ns > self.estimator.now_ns() {
+        let since_ns = now.time_ns.saturating_sub(self.estimator.now_ns());
+        if since_ns > now.step.ns() {
+            // Only a saved state that was changed has such a gap, and predicting over it would take as long.
+            let step_s = since_ns as f64 * 1e-9;
+            return Err(EstimationError::BadStep { step_s });
+        }
+        if since_ns > 0 {
             self.estimator.predict(&self.sent, now.time_ns)?;
         }
         let seen = Seen::of(quadrotor, input);
@@ -248,12 +258,36 @@ impl Estimating {
         }
     }
 
+    /// Refuses a memory that no flight of this step leads to: going over it would take as long as its times ask for.
+    fn check(&self, memory: &EstimatingMemory) -> Result<(), MemoryError> {
+        for pair in memory.estimator.instants.windows(2) {
+            let (before_ns, time_ns) = (pair[0].time_ns, pair[1].time_ns);
+            if before_ns.checked_add(self.step_ns) != Some(time_ns) {
+                let step_ns = self.step_ns;
+                return Err(MemoryError::Instants {
+                    time_ns,
+                    before_ns,
+                    step_ns,
+                });
+            }
+        }
+        let numbers = |values: &[f64]| MemoryError::check_numbers("its sensors' memory", values);
+        memory.sensors.biases.iter().try_for_each(|bias| numbers(bias))?;
+        memory
+            .sensors
+            .pending
+            .iter()
+            .try_for_each(|reading| numbers(&reading.values))?;
+        numbers(&memory.sent.map(|u| u.0))
+    }
+
     /// It as it was remembered.
     pub(super) fn remembered(&self, memory: EstimatingMemory) -> Result<Self, MemoryError> {
         let count = self.setup.sensors.sensors().len();
         for found in [memory.sensors.biases.len(), memory.sensors.next_ns.len()] {
             MemoryError::check_length("the list of sensors", count, found)?;
         }
+        self.check(&memory)?;
         let mut that = self.clone();
         that.estimator.recall(&memory.estimator)?;
         that.sensors = memory.sensors;

@@ -3,10 +3,10 @@
 use super::estimation::{Estimating, EstimatingMemory};
 use super::gusts::MEMORY;
 use super::{ModelQuadrotor, model};
-use crate::agent::MemoryError;
+use crate::agent::{ATTITUDE_ERROR, MemoryError, Published};
 use crate::exact::{Exact, exact, plain};
 use nalgebra::Vector3;
-use quad_dynamics::{AnyQuadrotor, Level, PhenomenonSet};
+use quad_dynamics::{AnyQuadrotor, Flight, Level, PhenomenonSet};
 use quad_ndi::check_pairing;
 use serde::{Deserialize, Serialize};
 
@@ -62,7 +62,33 @@ impl ModelQuadrotor {
         let vehicle = &self.setup.vehicle;
         let mut quadrotor = model(vehicle, memory.level, &memory.phenomena, Vector3::zeros(), 0.0)?;
         MemoryError::check_length("the model's state", quadrotor.state_len(), memory.state.len())?;
+        check_numbers(&memory)?;
+        let count = self.scripted.len();
+        match memory.entry {
+            Some(entry) if entry >= count => return Err(MemoryError::Entry { entry, count }),
+            _ => {}
+        }
         quadrotor.read_state(&plain(&memory.state));
+        if let Some(body) = quadrotor.rigid_body() {
+            let length = body.attitude.norm_squared().sqrt();
+            if (length - 1.0).abs() > ATTITUDE_ERROR {
+                return Err(MemoryError::Attitude { length });
+            }
+        }
+        let Flight {
+            position,
+            velocity,
+            rotation,
+            body_rates,
+            ..
+        } = quadrotor.flight();
+        let seen = Published {
+            position,
+            velocity,
+            rotation,
+            body_rates,
+        };
+        seen.check_flight()?;
         let estimating = match (&self.estimating, memory.estimating.take()) {
             (None, None) => None,
             (Some(estimating), Some(memory)) => Some(Box::new(estimating.remembered(memory)?)),
@@ -74,4 +100,20 @@ impl ModelQuadrotor {
             estimating,
         })
     }
+}
+
+/// Refuses numbers that no flight leads to.
+fn check_numbers(memory: &Memory) -> Result<(), MemoryError> {
+    let groups: [(&'static str, &[Exact]); 7] = [
+        ("the model's state", &memory.state),
+        ("the controller's memory", &memory.pilot),
+        ("the list of commands", &memory.commands),
+        ("the wind", &memory.wind),
+        ("the rotation of the air", &memory.air_rates),
+        ("the memory of the gusts", &memory.air),
+        ("the charge drawn", &[memory.charge_drawn]),
+    ];
+    groups
+        .iter()
+        .try_for_each(|(what, numbers)| MemoryError::check_numbers(what, &plain(numbers)))
 }

@@ -279,6 +279,7 @@ impl Agent for RecordedQuadrotor {
 
     fn restore(&mut self, memory: &serde_json::Value) -> Result<(), MemoryError> {
         let time_s: f64 = serde_json::from_value(memory.clone())?;
+        MemoryError::check_numbers("the time", &[time_s])?;
         self.move_to(time_s);
         Ok(())
     }

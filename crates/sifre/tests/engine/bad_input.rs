@@ -6,10 +6,10 @@ use proptest::test_runner::TestRunner;
 use quad_dynamics::{Level, Vehicle};
 use quad_ndi::Reference;
 use sifre::black_box::MemoryBox;
-use sifre::quadrotor::{QuadrotorError, Script, Setup, Start};
+use sifre::quadrotor::{Estimation, QuadrotorError, Script, Setup, Start};
 use sifre::{
-    BindError, Engine, Follow, GridError, Member, ModelQuadrotor, ResumeError, Schedule, SimulationError,
-    SimulationSnapshot, SnapshotError, StepSize, StopCondition, Target, Who,
+    BindError, Engine, Follow, GridError, Member, ModelQuadrotor, ResumeError, RunStatus, Schedule,
+    SimulationError, SimulationSnapshot, SnapshotError, StepSize, StopCondition, Target, Who,
 };
 use std::sync::Arc;
 
@@ -223,4 +223,69 @@ fn exact_a_run_of_no_time_is_a_run() {
     let report = simulation.run(0.0, &mut ()).unwrap();
     assert!(report.status.is_completed());
     assert_eq!((report.agent_steps, report.time_s), (0, 0.0));
+}
+
+/// A saved state of which one number was changed.
+fn with(saved: &SimulationSnapshot, change: impl Fn(&mut serde_json::Value)) -> SimulationSnapshot {
+    let mut changed = saved.clone();
+    change(&mut changed.agents[0].memory);
+    changed
+}
+
+/// States that no run leads to, and an estimator's clock that would keep a core busy for years.
+#[test]
+fn exact_states_that_no_run_leads_to_are_refused() {
+    let members = || {
+        let suite = quad_estimation::sensor::Quality::Poor.suite();
+        let estimation = Some(Estimation::new(Level::Three, suite, 1));
+        let setup = Setup {
+            level: Level::Five.into(),
+            estimation,
+            ..setup("a")
+        };
+        vec![Member::new(ModelQuadrotor::new(setup).unwrap(), ms(5.0))]
+    };
+    let mut simulation = Engine::new(members()).unwrap();
+    simulation.run(0.1, &mut ()).unwrap();
+    let saved = simulation.save().unwrap();
+    let refusal = |snapshot: &SimulationSnapshot| match Engine::resume(members(), snapshot) {
+        Err(ResumeError::Snapshot(error)) => error.to_string(),
+        other => panic!("{other:?}"),
+    };
+    Engine::resume(members(), &saved).unwrap();
+    // Position, velocity, attitude from the seventh number on, body rates, rotors.
+    let states = [
+        (6, 5.0, "quaternion of length 5"),
+        (0, 1e300, "the model's state has 1e300"),
+        (3, 1e5, "speed of sound"),
+        (14, 1e300, "the model's state has 1e300"),
+    ];
+    for (place, value, says) in states {
+        let error = refusal(&with(&saved, |memory| memory["state"][place] = value.into()));
+        assert!(error.contains(says), "{error}");
+    }
+    let error = refusal(&with(&saved, |memory| memory["entry"] = 7.into()));
+    assert!(error.contains("entry 7"), "{error}");
+    let error = refusal(&with(&saved, |memory| {
+        let instants = memory["estimating"]["estimator"]["instants"]
+            .as_array_mut()
+            .unwrap();
+        instants.last_mut().unwrap()["time_ns"] = (1_u64 << 49).into();
+    }));
+    assert!(error.contains("steps of 5000000 ns apart"), "{error}");
+    // All of its instants are long ago: seen at the first step, which it can't predict to.
+    let late = SimulationSnapshot {
+        time_ns: 1 << 49,
+        ..saved.clone()
+    };
+    let mut resumed = Engine::resume(members(), &late).unwrap();
+    let end = resumed.run(resumed.now_s() + 0.1, &mut ()).unwrap();
+    assert!(
+        matches!(end.status, RunStatus::EstimatorFailed { .. }),
+        "{}",
+        end.status
+    );
+    let mut skewed = saved;
+    skewed.agents[0].published[6] = sifre::Exact(2.0);
+    assert!(refusal(&skewed).contains("attitude that others see"));
 }
