@@ -21,6 +21,8 @@ mod recovered;
 mod selected;
 #[cfg(test)]
 mod tests;
+#[cfg(feature = "parquet")]
+mod thrift;
 
 pub use channel::{Channel, Frame, Role};
 pub use csv_box::CsvBox;

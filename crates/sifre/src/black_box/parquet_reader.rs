@@ -1,15 +1,18 @@
 //! Recordings read back from Parquet.
 //!
-//! What a [`ParquetBox`](super::ParquetBox) writes is plain, uncompressed and required, so a row of n channels has 8 (n + 1) bytes in the file. Pages are taken
-//! from the library and their bytes read here, and no length that a file states is believed before the file is found to be long enough:
-//! a damaged file can ask for no more memory than it has bytes.
+//! What a [`ParquetBox`](super::ParquetBox) writes is plain, uncompressed and required, so a row of n channels has 8 (n + 1) bytes in the file. The library
+//! decodes the description at the file's end; pages are read here. No length that a file states is believed before the file is found
+//! to be long enough: a damaged file can ask for no more memory and time than it has bytes.
 
 use super::parquet_box::KEY;
+use super::thrift::Thrift;
 use super::{BlackBoxError, Header, Recording, Recovered};
-use parquet::basic::{Encoding, Type as Physical};
-use parquet::column::page::Page;
-use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
-use parquet::file::reader::{ChunkReader, FileReader, RowGroupReader, SerializedFileReader};
+use parquet::basic::Type as Physical;
+use parquet::errors::ParquetError;
+use parquet::file::metadata::{
+    ColumnChunkMetaData, ParquetMetaData, ParquetMetaDataReader, RowGroupMetaData,
+};
+use parquet::file::reader::ChunkReader;
 use std::panic::{self, AssertUnwindSafe};
 
 /// Bytes of a time and of a number.
@@ -62,6 +65,9 @@ pub enum ParquetDamage {
         /// The column, from 1.
         column: usize,
     },
+    /// Lists with more elements than there are bytes.
+    #[error("the description at its end has more elements than bytes")]
+    Structure,
     /// The library came upon something that it had taken for impossible.
     #[error("its parts contradict each other")]
     Contradiction,
@@ -81,14 +87,15 @@ impl Recording {
     /// # Errors
     /// If the file's end, which describes it, is missing or wrong.
     pub fn recover_parquet<C: ChunkReader + 'static>(from: C) -> Result<Recovered, BlackBoxError> {
-        let bytes = from.len();
-        let reader = caught(|| SerializedFileReader::new(from).map_err(BlackBoxError::Unfinished))?;
-        let mut recording = Self::new(channels(reader.metadata())?);
-        check_sizes(reader.metadata(), recording.channels().len() + 1, bytes)?;
-        let read = (0..reader.num_row_groups()).try_for_each(|group| {
-            let columns = caught(|| read_group(reader.get_row_group(group)?.as_ref()))?;
-            push(&mut recording, &columns)
-        });
+        check_structure(&from)?;
+        let metadata = caught(|| {
+            let read = ParquetMetaDataReader::new().parse_and_finish(&from);
+            read.map_err(BlackBoxError::Unfinished)
+        })?;
+        let mut recording = Self::new(channels(&metadata)?);
+        check_sizes(&metadata, recording.channels().len() + 1, from.len())?;
+        let mut groups = metadata.row_groups().iter();
+        let read = groups.try_for_each(|group| push(&mut recording, &read_group(&from, group)?));
         Ok(Recovered::of(recording, read))
     }
 }
@@ -132,7 +139,7 @@ fn check_sizes(metadata: &ParquetMetaData, columns: usize, bytes: u64) -> Result
     }
     for (group, row_group) in (1..).zip(metadata.row_groups()) {
         for (column, chunk) in (1..).zip(row_group.columns()) {
-            if !is_inside(chunk, bytes) {
+            if !is_inside(chunk, row_group.num_rows(), bytes) {
                 return Err(ParquetDamage::Outside { group, column });
             }
         }
@@ -156,57 +163,49 @@ fn check_sizes(metadata: &ParquetMetaData, columns: usize, bytes: u64) -> Result
     Ok(())
 }
 
-/// Whether the bytes of a column are bytes of the file.
-fn is_inside(chunk: &ColumnChunkMetaData, bytes: u64) -> bool {
-    let start = chunk.dictionary_page_offset().unwrap_or(chunk.data_page_offset());
-    let places = [
-        start,
-        chunk.data_page_offset(),
-        chunk.compressed_size(),
-        chunk.num_values(),
-    ];
-    places.iter().all(|place| *place >= 0)
-        && i128::from(start) + i128::from(chunk.compressed_size()) <= i128::from(bytes)
+/// Whether the bytes of a column are bytes of the file, and no more than its rows and the heads of their pages take.
+fn is_inside(chunk: &ColumnChunkMetaData, rows: i64, bytes: u64) -> bool {
+    const HEADS: i128 = 1 << 16;
+    let (start, length) = (
+        i128::from(chunk.data_page_offset()),
+        i128::from(chunk.compressed_size()),
+    );
+    let most = 2 * i128::from(rows) * WIDTH as i128 + HEADS;
+    start >= 0 && (0..=most).contains(&length) && start + length <= i128::from(bytes)
 }
 
 /// The bits of a row group's columns.
-fn read_group(group: &dyn RowGroupReader) -> Result<Vec<Vec<u64>>, BlackBoxError> {
-    let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-    (0..group.num_columns())
-        .map(|column| read_column(group, column, rows))
+fn read_group(from: &impl ChunkReader, group: &RowGroupMetaData) -> Result<Vec<Vec<u64>>, BlackBoxError> {
+    let rows = usize::try_from(group.num_rows()).unwrap_or(0);
+    (1..)
+        .zip(group.columns())
+        .map(|(column, chunk)| read_column(from, chunk, column, rows))
         .collect()
 }
 
 /// The bits of a column's values.
-fn read_column(group: &dyn RowGroupReader, column: usize, rows: usize) -> Result<Vec<u64>, BlackBoxError> {
-    let mut pages = group.get_column_page_reader(column)?;
-    let column = column + 1;
+fn read_column(
+    from: &impl ChunkReader,
+    chunk: &ColumnChunkMetaData,
+    column: usize,
+    rows: usize,
+) -> Result<Vec<u64>, BlackBoxError> {
+    // Both were found to be within the file.
+    let (start, length) = (
+        chunk.data_page_offset().cast_unsigned(),
+        chunk.compressed_size() as usize,
+    );
+    let bytes = from.get_bytes(start, length)?;
+    let mut left: &[u8] = &bytes;
     let mut values = Vec::with_capacity(rows);
-    while values.len() < rows
-        && let Some(page) = pages.get_next_page()?
-    {
-        let is_plain = match &page {
-            Page::DataPage { encoding, .. } => *encoding == Encoding::PLAIN,
-            Page::DataPageV2 {
-                encoding,
-                def_levels_byte_len,
-                rep_levels_byte_len,
-                ..
-            } => *encoding == Encoding::PLAIN && (*def_levels_byte_len, *rep_levels_byte_len) == (0, 0),
-            Page::DictionaryPage { .. } => false,
-        };
-        let (numbers, rest) = page.buffer().as_chunks::<WIDTH>();
-        if !is_plain || !rest.is_empty() || page.num_values() as usize != numbers.len() {
-            return Err(ParquetDamage::Encoding { column }.into());
-        }
-        if numbers.len() > rows - values.len() {
-            let found = values.len() + numbers.len();
-            return Err(ParquetDamage::Values {
-                column,
-                expected: rows,
-                found,
-            }
-            .into());
+    while values.len() < rows && !left.is_empty() {
+        let refused = ParquetDamage::Encoding { column };
+        let header = PageHeader::read(&mut left).ok_or(refused.clone())?;
+        let (page, rest) = left.split_at_checked(header.bytes).ok_or(refused.clone())?;
+        left = rest;
+        let (numbers, odd) = page.as_chunks::<WIDTH>();
+        if !odd.is_empty() || header.values != numbers.len() {
+            return Err(refused.into());
         }
         values.extend(numbers.iter().map(|bytes| u64::from_le_bytes(*bytes)));
     }
@@ -220,6 +219,72 @@ fn read_column(group: &dyn RowGroupReader, column: usize, rows: usize) -> Result
         .into());
     }
     Ok(values)
+}
+
+/// What precedes a page of plain values.
+struct PageHeader {
+    bytes: usize,
+    values: usize,
+}
+
+impl PageHeader {
+    /// Reads it off the front of a column; `None` if it is another kind of page, encoded or compressed.
+    fn read(from: &mut &[u8]) -> Option<Self> {
+        // Fields 1 to 5 of `PageHeader`; 1 and 2 of its `DataPageHeader`.
+        const DATA_PAGE: i64 = 0;
+        const PLAIN: i64 = 0;
+        let mut thrift = Thrift::new(from);
+        let [mut kind, mut plain, mut stored, mut count, mut encoding] = [None; 5];
+        thrift.fields(0, &mut |number, at| {
+            let to = match number {
+                1 => &mut kind,
+                2 => &mut plain,
+                3 => &mut stored,
+                5 => {
+                    at.fields(1, &mut |number, at| {
+                        let to = match number {
+                            1 => &mut count,
+                            2 => &mut encoding,
+                            _ => return Some(false),
+                        };
+                        *to = Some(at.integer()?);
+                        Some(true)
+                    })?;
+                    return Some(true);
+                }
+                _ => return Some(false),
+            };
+            *to = Some(at.integer()?);
+            Some(true)
+        })?;
+        *from = &from[from.len() - thrift.left()..];
+        ((kind, encoding) == (Some(DATA_PAGE), Some(PLAIN)) && plain == stored).then_some(Self {
+            bytes: usize::try_from(stored?).ok()?,
+            values: usize::try_from(count?).ok()?,
+        })
+    }
+}
+
+/// The structure at the end of a file, which the library is to decode, walked over before: length and `PAR1` are the last bytes.
+fn check_structure(from: &impl ChunkReader) -> Result<(), BlackBoxError> {
+    const TAIL: u64 = 8;
+    let unfinished = |what: &str| BlackBoxError::Unfinished(ParquetError::General(what.to_owned()));
+    let bytes = from.len();
+    let Some(end) = bytes.checked_sub(TAIL) else {
+        return Err(unfinished("it is shorter than its end"));
+    };
+    let tail = from.get_bytes(end, TAIL as usize)?;
+    let &[a, b, c, d, b'P', b'A', b'R', b'1'] = tail.as_ref() else {
+        return Err(unfinished("it does not end in PAR1"));
+    };
+    let length = u32::from_le_bytes([a, b, c, d]);
+    let Some(start) = end.checked_sub(u64::from(length)) else {
+        return Err(unfinished("its end is longer than the file"));
+    };
+    let structure = from.get_bytes(start, length as usize)?;
+    Thrift::new(&structure)
+        .structure(0)
+        .ok_or(ParquetDamage::Structure.into())
 }
 
 /// Adds the rows of a row group.
