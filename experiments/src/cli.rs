@@ -21,25 +21,25 @@ const DIFFERS: u8 = 1;
 /// Exit code for bad usage.
 const USAGE: u8 = 2;
 
-/// Draws the figures and tables of the study and checks their claims.
+/// Draw the figures and tables of the study and check their claims.
 ///
-/// Exit codes: 0 when everything came out as registered; 1 when an item failed or the outcome of a claim differs
+/// Exit codes: 0 if every outcome is as registered; 1 if an item failed or the outcome of a claim differs
 /// from the registered one; 2 for bad usage.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "reproduce-figures", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
-    /// Something else than figures.
+    /// A chore other than figures.
     #[command(subcommand)]
     chore: Option<Chore>,
-    /// Items to make, such as `6.4 F.1 table-4.3`; all if none is named.
+    /// Items to draw, such as `6.4 F.1 table-4.3` [default: all].
     ids: Vec<String>,
-    /// Only the items of this chapter or appendix (`6`, `F`), or those not in the source (`beyond`, `est`); may be repeated.
+    /// Draw only the items of this chapter or appendix (`6`, `F`), or those not in the source (`beyond`, `est`). May be repeated.
     #[arg(long, value_name = "N")]
     chapter: Vec<String>,
-    /// List the items with their claims, and make nothing.
+    /// List the items with their claims; draw nothing.
     #[arg(long)]
     list: bool,
-    /// Items made at the same time; all cores if not given.
+    /// Number of items drawn at the same time [default: number of cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// Compare the data with the committed references.
@@ -48,29 +48,29 @@ pub struct Arguments {
     /// Write the references that `--check` compares with.
     #[arg(long, conflicts_with = "quick")]
     bless: bool,
-    /// Shorter runs; every claim is checked all the same.
+    /// Use shorter runs; every claim is still checked.
     #[arg(long)]
     quick: bool,
-    /// Folder of the output, instead of target/figures.
+    /// Folder of the output [default: target/figures].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
-/// What the program does beside figures.
+/// What the program does besides figures.
 #[derive(Clone, Debug, Subcommand)]
 enum Chore {
-    /// Measures the vehicle in the virtual laboratory, identifies it, and flies what was identified.
+    /// Measure the vehicle in the virtual laboratory, identify it, and fly the identified vehicle.
     ///
-    /// Writes the raw measurements, the vehicle file, a report and a plot. Exit codes: 0 when the identified vehicle flies the
-    /// claims of figure 6.14; 1 when it does not, or something failed; 2 for bad usage.
+    /// Writes the raw measurements, the vehicle file, a report and a plot. Exit codes: 0 if the identified vehicle meets the
+    /// claims of figure 6.14; 1 if it does not, or something failed; 2 for bad usage.
     Identify {
         /// Seed of the measurements' noise.
         #[arg(long, default_value_t = 1)]
         seed: u64,
-        /// Folder of the output, instead of target/identify.
+        /// Folder of the output [default: target/identify].
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
-        /// Repeats the identification over so many seeds, counts the intervals that contain the truth, and writes nothing.
+        /// Repeat the identification over this many seeds and count the intervals that contain the truth; write nothing.
         #[arg(long, value_name = "SEEDS", value_parser = clap::value_parser!(u32).range(1..))]
         coverage: Option<u32>,
     },
@@ -174,7 +174,7 @@ fn options(arguments: &Arguments) -> Options {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SelectError {
     /// There is no such item.
-    #[error("there is no item \"{id}\"; there are: {known}")]
+    #[error("unknown item \"{id}\"; known: {known}")]
     UnknownItem {
         /// The identifier asked for.
         id: String,
@@ -182,7 +182,7 @@ pub enum SelectError {
         known: String,
     },
     /// There is no such chapter.
-    #[error("there is no item of chapter \"{chapter}\"; there are chapters: {known}")]
+    #[error("unknown chapter \"{chapter}\"; known: {known}")]
     UnknownChapter {
         /// The chapter asked for.
         chapter: String,

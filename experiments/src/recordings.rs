@@ -1,7 +1,7 @@
 //! Where recorded flights are found: they are not part of the repository (see `data/README.md`).
 //!
 //! The folder that the environment variable `QUAD_DATA` names, else `data/external/`. With neither, an item that needs
-//! them is *not reproducible on this machine*, which is no failure. A folder that was named, or is there, must hold the
+//! them is *not reproducible on this machine*, which is no failure. A folder that was named, or exists, must hold the
 //! file: if not, the item fails, so that a build server that has the recordings can't leave them out unnoticed.
 
 use std::fs::File;
@@ -26,8 +26,8 @@ pub fn open(context: &Context, relative: &str) -> Result<File, ItemError> {
 fn open_in(named: Option<&Path>, own: &Path, relative: &str) -> Result<File, ItemError> {
     let Some(folder) = named.or_else(|| own.is_dir().then_some(own)) else {
         return Err(ItemError::missing_data(format!(
-            "the recorded flights are not on this machine: set {VARIABLE} to their folder or fill data/external/, as \
-             data/README.md says"
+            "the recorded flights are missing: set {VARIABLE} to their folder or fill data/external/ \
+             (see data/README.md)"
         )));
     };
     let path = folder.join(relative);

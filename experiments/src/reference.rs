@@ -21,7 +21,7 @@ pub const MAX_ROWS: usize = 60;
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
     /// There is no reference.
-    #[error("there is no reference {path}; `--bless` writes it")]
+    #[error("the reference {path} is missing; `--bless` writes it")]
     Missing {
         /// The file.
         path: PathBuf,
@@ -35,7 +35,7 @@ pub enum CheckError {
         source: csv::Error,
     },
     /// The columns are others.
-    #[error("{file}: the columns are {found}, the reference has {expected}")]
+    #[error("{file}: the columns are {found}, expected {expected} as in the reference")]
     Columns {
         /// The file's name.
         file: String,
@@ -45,7 +45,7 @@ pub enum CheckError {
         expected: String,
     },
     /// The number of rows is another.
-    #[error("{file}: {found} rows, the reference was taken from {expected}")]
+    #[error("{file}: {found} rows, expected {expected} as for the reference")]
     Rows {
         /// The file's name.
         file: String,
@@ -55,7 +55,7 @@ pub enum CheckError {
         expected: usize,
     },
     /// A value differs.
-    #[error("{file}, row {row}, {column}: {found} instead of {expected} (allowed: {allowed:e})")]
+    #[error("{file}, row {row}, {column}: got {found}, expected {expected} (tolerance {allowed:e})")]
     Value {
         /// The file's name.
         file: String,

@@ -50,7 +50,7 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The output folder cannot be made.
-    #[error("cannot make the folder {path}: {source}")]
+    #[error("cannot create the folder {path}: {source}")]
     Folder {
         /// The folder.
         path: PathBuf,

@@ -115,7 +115,7 @@ pub enum SummaryError {
         source: io::Error,
     },
     /// The file is not a summary.
-    #[error("{path} is not a summary of this program: {source}; delete it to start afresh")]
+    #[error("{path} is not a summary of this program: {source}; delete it to start again")]
     Parse {
         /// The file.
         path: PathBuf,

@@ -1,7 +1,7 @@
 //! Time per derivative, per RK4 step and per closed-loop step of each level, on f64, 4 × f64 and 8 × f32.
 //!
 //! Every row flies [`STEPS`] steps, so microseconds are nanoseconds per step of the whole scalar: divide by
-//! four or eight for lanes and by [`VEHICLES`] for batches to get time per vehicle. `cargo bench -p
+//! four or eight for SIMD lanes and by [`VEHICLES`] for batches to get time per vehicle. `cargo bench -p
 //! family-tests`; results and machine stand in BENCHMARKS.md.
 
 use divan::{Bencher, black_box};

@@ -96,7 +96,7 @@ fn differences(targets: &[Builds]) -> Vec<String> {
                         .join(" ")
                 };
                 lines.push(format!(
-                    "{package}: {name} needs {}, what is built before {}",
+                    "{package}: {name} needs {}, build-features asks for {}",
                     words(sets),
                     words(others)
                 ));
@@ -125,7 +125,7 @@ mod tests {
         let lines = differences(&[first, other]);
         assert_eq!(
             lines,
-            ["libc v0.2.1: sifre needs [extra_traits,std], what is built before [std]"]
+            ["libc v0.2.1: sifre needs [extra_traits,std], build-features asks for [std]"]
         );
     }
 }

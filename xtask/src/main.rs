@@ -16,9 +16,9 @@ chores:
   reproduce-figures   draw the figures and tables and check their claims (--help for its arguments)
 ";
 
-/// What is said before the program that draws is built for the first time.
+/// Printed before the figure program is built for the first time.
 const FIRST_BUILD: &str =
-    "building the program that draws the figures: some minutes, once (the README says how many)";
+    "building the figure program; this takes some minutes the first time (see README, build times)";
 
 /// Exit code for bad usage.
 const BAD_USAGE: u8 = 2;
@@ -56,7 +56,7 @@ fn workspace() -> PathBuf {
     Path::new(&xtask).join("../Cargo.toml")
 }
 
-/// Where the program that draws the figures comes to lie.
+/// Whether the figure program has been built.
 fn is_built(manifest: &Path) -> bool {
     let target =
         env::var_os("CARGO_TARGET_DIR").map_or_else(|| manifest.with_file_name("target"), PathBuf::from);

@@ -65,7 +65,7 @@ pub struct Size {
 pub struct Page {
     program: PathBuf,
     child: Child,
-    /// Gone once the browser has been told to end.
+    /// `None` once the browser has been asked to end.
     to_browser: Option<ChildStdin>,
     from_browser: Receiver<Value>,
     session: Option<String>,
@@ -86,7 +86,7 @@ pub enum BrowserError {
         source: io::Error,
     },
     /// It ended.
-    #[error("{program} ended when it was asked to {method}")]
+    #[error("{program} ended during {method}")]
     Ended {
         /// The browser.
         program: PathBuf,
@@ -94,7 +94,7 @@ pub enum BrowserError {
         method: String,
     },
     /// It doesn't answer.
-    #[error("{program} did not {method} within {seconds} s")]
+    #[error("{program} did not complete {method} within {seconds} s")]
     TooSlow {
         /// The browser.
         program: PathBuf,
@@ -104,7 +104,7 @@ pub enum BrowserError {
         seconds: u64,
     },
     /// It refused.
-    #[error("{program} did not {method}: {message}")]
+    #[error("{program} failed in {method}: {message}")]
     Refused {
         /// The browser.
         program: PathBuf,

@@ -1,4 +1,4 @@
-//! What the page is told: the data of the viewer, as it reads them.
+//! The data of the page, as its viewer reads them.
 //!
 //! Positions are in W, m, three numbers per row; attitudes are unit quaternions `[x, y, z, w]` from the agent's frame to W, four
 //! per row, neighbours of the same sign, so that the viewer may interpolate them. Angles in rad. What may be missing is `null`.
@@ -327,7 +327,7 @@ fn rounded(column: &[f64]) -> Vec<f64> {
     column.iter().copied().map(round).collect()
 }
 
-/// Numbers that are none are gaps in a curve.
+/// Non-finite numbers are gaps in a curve.
 fn gaps(column: Vec<f64>) -> Vec<Option<f64>> {
     column
         .into_iter()

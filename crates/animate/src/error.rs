@@ -21,7 +21,7 @@ pub enum AnimateError {
         name: String,
     },
     /// A channel that an agent is drawn from isn't recorded.
-    #[error("agent \"{agent}\" is to be drawn as a {kind}, but the recording has no channel \"{channel}\"")]
+    #[error("agent \"{agent}\" can't be drawn as a {kind}: the recording has no channel \"{channel}\"")]
     MissingChannel {
         /// The agent.
         agent: String,
@@ -31,7 +31,7 @@ pub enum AnimateError {
         channel: String,
     },
     /// A number that a pose is drawn from is NaN or infinite.
-    #[error("channel \"{channel}\" is {value} at {time_s} s: a pose must be finite")]
+    #[error("channel \"{channel}\": a pose must be finite, got {value} at {time_s} s")]
     NotFinite {
         /// The channel.
         channel: String,
@@ -41,7 +41,7 @@ pub enum AnimateError {
         value: f64,
     },
     /// A level that there is not.
-    #[error("channel \"{channel}\" is {value} at {time_s} s: levels are {} to {}", Level::LOWEST.number(), Level::HIGHEST.number())]
+    #[error("channel \"{channel}\": {value} at {time_s} s is not a level; levels are {} to {}", Level::LOWEST.number(), Level::HIGHEST.number())]
     BadLevel {
         /// The channel.
         channel: String,
@@ -51,7 +51,7 @@ pub enum AnimateError {
         value: f64,
     },
     /// A station is said to track an agent that the scene doesn't have.
-    #[error("station \"{station}\" tracks \"{wanted}\", which is not in the scene; there are {known:?}")]
+    #[error("station \"{station}\" tracks \"{wanted}\", which is not in the scene; known: {known:?}")]
     UnknownTarget {
         /// The station.
         station: String,
@@ -62,7 +62,7 @@ pub enum AnimateError {
     },
     /// A station whose recorded ranges don't fit where it is said to stand.
     #[error(
-        "station \"{station}\" is said to stand at {position_m:?} m, but then its target would be {distance_m:.2} m away \
+        "station \"{station}\" can't be at {position_m:?} m: its target would be {distance_m:.2} m away \
          at {time_s} s, and {range_m:.2} m are recorded: give the scene the station's own parameters"
     )]
     StationElsewhere {
@@ -78,7 +78,7 @@ pub enum AnimateError {
         range_m: f64,
     },
     /// A length that must be positive.
-    #[error("{what} is {value}: it must be positive and finite")]
+    #[error("{what} must be positive and finite, got {value}")]
     NotPositive {
         /// What it is.
         what: String,
@@ -86,7 +86,7 @@ pub enum AnimateError {
         value: f64,
     },
     /// Too few rows asked for.
-    #[error("at most {max_frames} rows are asked for: an animation needs two")]
+    #[error("an animation needs at least 2 rows, got a maximum of {max_frames}")]
     TooFewFrames {
         /// The number asked for.
         max_frames: usize,

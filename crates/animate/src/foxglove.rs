@@ -7,7 +7,7 @@
 //!
 //! Viewers have z up: their frame `map` is north-west-up, W below it is north-east-down, and an agent's frame is its own,
 //! forward-right-down; of a station it is the moving platform. Log times are the recording's, ns. Every row is written,
-//! numbers as they are; JSON has no NaN, so a number that is none is `null`.
+//! numbers as they are; JSON has no NaN, so a non-finite number is `null`.
 
 use crate::columns::Columns;
 use crate::error::AnimateError;

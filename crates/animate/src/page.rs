@@ -1,4 +1,4 @@
-//! The page: template, style, three.js, viewer and data in one text.
+//! The page: template, style, three.js, viewer and data in one string.
 
 use crate::Options;
 use crate::columns::Columns;

@@ -1,3 +1,3 @@
-// What the page was told.
+// The data of the page.
 
 const DATA = JSON.parse(document.getElementById('data').textContent);

@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CoverageError {
     /// A length that isn't positive.
-    #[error("{what} must be positive and finite, not {value_m} m")]
+    #[error("{what} must be positive and finite, got {value_m} m")]
     NonPositiveLength {
         /// Which.
         what: &'static str,
@@ -12,7 +12,7 @@ pub enum CoverageError {
         value_m: f64,
     },
     /// A field of view that isn't one.
-    #[error("the {which} field of view must lie between 0 and π rad, not {value_rad}")]
+    #[error("the {which} field of view must lie between 0 and π rad, got {value_rad}")]
     BadField {
         /// Horizontal or vertical.
         which: &'static str,
@@ -20,7 +20,7 @@ pub enum CoverageError {
         value_rad: f64,
     },
     /// Distances in the wrong order.
-    #[error("a camera sees from {near_m} m to {far_m} m: the first must be at least 0 and below the second")]
+    #[error("a camera's range needs 0 <= near < far, got {near_m} m to {far_m} m")]
     BadRange {
         /// Smallest distance, m.
         near_m: f64,
@@ -28,7 +28,9 @@ pub enum CoverageError {
         far_m: f64,
     },
     /// A volume that leaves the room.
-    #[error("the volume reaches {reach_m:?} m, outside the room of {room_m:?} m (length, width, height)")]
+    #[error(
+        "the volume must lie inside the room of {room_m:?} m (length, width, height), got a reach of {reach_m:?} m"
+    )]
     VolumeOutside {
         /// Its farthest corner, W, m.
         reach_m: [f64; 3],
@@ -37,7 +39,7 @@ pub enum CoverageError {
     },
     /// A camera that isn't in the room.
     #[error(
-        "camera {index} stands at {position_m:?} m, outside the room of {room_m:?} m (length, width, height)"
+        "camera {index} must be inside the room of {room_m:?} m (length, width, height), got {position_m:?} m"
     )]
     CameraOutside {
         /// Which, from 0.
@@ -49,7 +51,7 @@ pub enum CoverageError {
     },
     /// A camera that looks nowhere.
     #[error(
-        "camera {index} looks along azimuth {azimuth_rad} and elevation {elevation_rad} rad: both must be finite"
+        "camera {index}: azimuth and elevation must be finite, got {azimuth_rad} and {elevation_rad} rad"
     )]
     NoDirection {
         /// Which, from 0.
@@ -60,7 +62,7 @@ pub enum CoverageError {
         elevation_rad: f64,
     },
     /// More grid points than is sensible.
-    #[error("cells of {spacing_m} m divide the volume into {points:.0}, more than {limit}: take larger ones")]
+    #[error("the volume may have at most {limit} cells, got {points:.0} of {spacing_m} m: use larger cells")]
     TooManyPoints {
         /// Edge of a cell, m.
         spacing_m: f64,
@@ -70,7 +72,7 @@ pub enum CoverageError {
         limit: usize,
     },
     /// No cameras, or more than can be placed.
-    #[error("a rig has 1 to {limit} cameras, not {cameras}")]
+    #[error("a rig needs 1 to {limit} cameras, got {cameras}")]
     BadCount {
         /// How many were asked for.
         cameras: usize,
@@ -91,6 +93,6 @@ pub enum CoverageError {
         room_m: f64,
     },
     /// Nothing asked.
-    #[error("at least one camera must see a marker, not 0")]
+    #[error("at least one camera must see a marker, got 0")]
     NobodyNeeded,
 }

@@ -8,8 +8,8 @@
 //! A marker is located by the cameras that see it; the coverage of a volume is the part of it that enough of them see.
 //! It is counted on a grid of the middles of equal cells, so its error falls with the cells' size.
 //!
-//! Assumptions: nothing obstructs the view; lenses don't distort; every camera is equal. Two cameras that stand side by side
-//! count as two, although their rays hardly cross.
+//! Assumptions: nothing obstructs the view; lenses don't distort; every camera is equal. Two cameras side by side count
+//! as two, although their rays hardly cross.
 //!
 //! Frames: W with its origin on the floor in the middle of the room, x along its length, y along its width, z
 //! down. Source: geometry; figure C.1 of the thesis shows such a simulation.

@@ -34,7 +34,7 @@ pub enum FrameEvent {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ClockError {
     /// A time that is not finite, negative, or (step, period) not at least a nanosecond.
-    #[error("{what} must be finite and at least {least_s} s, not {value_s} s")]
+    #[error("{what} must be finite and at least {least_s} s, got {value_s} s")]
     BadTime {
         /// Which time.
         what: &'static str,
@@ -44,7 +44,7 @@ pub enum ClockError {
         least_s: f64,
     },
     /// Steps longer than the period would skip frames.
-    #[error("a step of {step_s} s is longer than the camera's period of {period_s} s: take shorter steps")]
+    #[error("the step must not exceed the camera's period, {period_s} s, got {step_s} s")]
     StepBeyondPeriod {
         /// The step, s.
         step_s: f64,
@@ -53,7 +53,7 @@ pub enum ClockError {
     },
     /// A second frame would be in flight before the first is delivered.
     #[error(
-        "a latency of {latency_s} s is not below the camera's period of {period_s} s: one frame at most may be in flight"
+        "the latency must be below the camera's period, {period_s} s (at most one frame in flight), got {latency_s} s"
     )]
     LatencyBeyondPeriod {
         /// The latency, s.

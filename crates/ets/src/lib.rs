@@ -18,7 +18,7 @@
 //! axis, parallel to E with the same origin. B is the vehicle's body frame.
 //!
 //! Generic in the scalar ([`quad_math::Real`]): `f64`, dual numbers, SIMD lanes. Nothing allocates in a step, and nothing here
-//! knows a quadrotor: a target is a position, a receiver hangs on a position and a rotation matrix.
+//! depends on a quadrotor: a target is a position, a receiver is attached to a position and a rotation matrix.
 //!
 //! # Example
 //!
@@ -53,7 +53,7 @@
 //! # What it does not do
 //!
 //! No time, no random numbers, no files: the step's number, noise samples and texts are arguments. No turbulence of the air,
-//! no lens distortion, no thermal limits of the cells, no eye-safety verdict: [`PowerBudget::missed`] is the number to judge by.
+//! no lens distortion, no thermal limits of the cells, no eye-safety verdict: judge by [`PowerBudget::missed`].
 
 mod aim;
 mod atmosphere;

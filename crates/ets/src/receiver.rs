@@ -10,7 +10,7 @@
 //! spot offset is `s = [e_1, e_2]ᵀ (o + t d − c)`.
 //!
 //! Light from behind meets no plane: `cos α` is held at [`GRAZING`] from below and t at 0, so `s` stays finite, grows with
-//! the violation, and a flag says so. Kinks: there, and of `α` at 0.
+//! the violation, and a flag reports it. Kinks: there, and of `α` at 0.
 
 use crate::beam::Ray;
 use crate::scalar::{flag, length};

@@ -9,7 +9,7 @@
 //! `s⁻ = s + ṡ T`, `e = m − s⁻`, `s ← s⁻ + (1 − δ²) e`, `ṡ ← ṡ + (1 − δ)² e/T`, `s` made a unit vector again.
 //!
 //! Between frames the line of sight is predicted, `s + ṡ t`. Loss of the target: up to the hold time t_hold after the last
-//! sighting the prediction goes on (*coasting*: the last rate is held); after that the [`Search`](crate::Search) begins about
+//! sighting the prediction continues (*coasting*: the last rate is held); after that the [`Search`](crate::Search) begins about
 //! the direction predicted for that instant. Re-acquisition: a sighting within t_hold corrects the filter; a later one, like
 //! the first of all, starts it afresh with `ṡ = 0`.
 

@@ -73,7 +73,7 @@ fn fuzz(asked: &Asked) -> Result<u64, String> {
         .collect();
     if targets.is_empty() {
         let known: Vec<&str> = target::all().iter().map(|target| target.name).collect();
-        return Err(format!("no such target; there are {}", known.join(", ")));
+        return Err(format!("unknown target; known: {}", known.join(", ")));
     }
     panic::set_hook(Box::new(|_| {}));
     let share = Duration::from_secs_f64(asked.seconds / targets.len() as f64);

@@ -3,10 +3,10 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
-/// Identifies parts of a quadrotor from measurements.
+/// Identify the parameters of a quadrotor from measurements.
 ///
-/// Exit codes: 0 identified (read the warnings); 1 data or a file refused, no vehicle file is written; 2 bad usage; 3 an output
-/// can't be written.
+/// Exit codes: 0 identified (read the warnings); 1 data or a file rejected, no vehicle file written; 2 bad usage; 3 an output
+/// could not be written.
 #[derive(Debug, Parser)]
 #[command(name = "identify", version)]
 pub(crate) struct Arguments {
@@ -17,15 +17,15 @@ pub(crate) struct Arguments {
 /// What all identifications take.
 #[derive(Debug, Args)]
 pub(crate) struct Common {
-    /// The measurements: a CSV file, or `-` for standard input.
+    /// Measurements: a CSV file, or `-` for standard input.
     pub(crate) data: PathBuf,
-    /// Vehicle file that gives what the identification needs to know, and that --out completes.
+    /// Vehicle file with what the identification needs to know; --out adds the result to a copy of it.
     #[arg(long)]
     pub(crate) vehicle: Option<PathBuf>,
-    /// Where to write the vehicle file with the identified numbers; its comments and other numbers stay as they are.
+    /// Write the vehicle file with the identified numbers to this file; comments and other numbers are kept.
     #[arg(long, requires = "vehicle")]
     pub(crate) out: Option<PathBuf>,
-    /// Where to draw data, fit and residuals: FILE.svg or FILE.png.
+    /// Plot data, fit and residuals to this file, .svg or .png.
     #[arg(long, value_name = "FILE", value_parser = crate::plot::path)]
     pub(crate) plot: Option<PathBuf>,
     /// Print JSON instead of a table.
@@ -43,7 +43,7 @@ pub(crate) enum Axis {
 /// How the airframe hung.
 #[derive(Debug, Args)]
 pub(crate) struct Hung {
-    /// Axis of the airframe that was vertical.
+    /// Body axis that was vertical.
     #[arg(long)]
     pub(crate) axis: Axis,
     /// Mass of the vehicle, kg.
@@ -64,10 +64,10 @@ pub(crate) struct Hung {
 #[derive(Clone, Copy, Debug, Args)]
 #[group(required = true, multiple = false)]
 pub(crate) struct Capacity {
-    /// Rated load of a force cell, N: the file has the column load_n.
+    /// Rated load of a force cell, N; the file needs the column load_n.
     #[arg(long)]
     pub(crate) capacity_n: Option<f64>,
-    /// Rated load of a torque cell, N m: the file has the column load_n_m, one direction to a file.
+    /// Rated load of a torque cell, N m; the file needs the column load_n_m and one direction only.
     #[arg(long)]
     pub(crate) capacity_n_m: Option<f64>,
 }
@@ -75,10 +75,10 @@ pub(crate) struct Capacity {
 /// Which rows the line of the linear rotor goes through.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct LineRange {
-    /// Lowest duty of the operating range, raw; without it that of the file.
+    /// Lowest raw duty of the operating range [default: lowest in the file].
     #[arg(long)]
     pub(crate) line_from: Option<f64>,
-    /// Highest duty of the operating range, raw; without it that of the file.
+    /// Highest raw duty of the operating range [default: highest in the file].
     #[arg(long)]
     pub(crate) line_to: Option<f64>,
 }
@@ -86,57 +86,57 @@ pub(crate) struct LineRange {
 /// Which part of a flight, and which motors.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Flown {
-    /// Start of the part to use, s on the file's clock; without it one second after the first row.
+    /// Start of the part to use, s on the file's clock [default: one second after the first row].
     #[arg(long)]
     pub(crate) from: Option<f64>,
-    /// End of the part to use, s; without it the last row.
+    /// End of the part to use, s [default: the last row].
     #[arg(long)]
     pub(crate) to: Option<f64>,
-    /// Mass as flown, kg, instead of the vehicle file's.
+    /// Mass as flown, kg [default: the vehicle file's].
     #[arg(long)]
     pub(crate) mass_kg: Option<f64>,
-    /// ULog only: the autopilot's numbers of the motors, in the order of the vehicle file's rotors: four, with commas.
+    /// ULog only: the autopilot's numbers of the four motors, in the order of the vehicle file's rotors, as in 1,2,3,4.
     #[arg(long, value_delimiter = ',', default_values_t = [1, 2, 3, 4])]
     pub(crate) motors: Vec<usize>,
 }
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum What {
-    /// Centre of mass and weight from the forces on three supports, in two orientations or more.
+    /// Find the centre of mass and the weight from the forces on three supports, in two orientations or more.
     CentreOfMass(Common),
-    /// Moment of inertia from the swing of a bifilar pendulum.
+    /// Find a moment of inertia from the swing of a bifilar pendulum.
     Pendulum {
         #[command(flatten)]
         common: Common,
         #[command(flatten)]
         hung: Hung,
     },
-    /// Zero and sensitivity of a force or torque cell from loads and readings.
+    /// Find the zero and sensitivity of a force or torque cell from loads and readings.
     LoadCell {
         #[command(flatten)]
         common: Common,
         #[command(flatten)]
         capacity: Capacity,
     },
-    /// Propeller coefficients, cubics and linear gains from a static sweep; needs --vehicle for diameter, density, PWM range.
+    /// Find propeller coefficients, cubics and linear gains from a static sweep; needs --vehicle for diameter, density, PWM range.
     ThrustStand {
         #[command(flatten)]
         common: Common,
         #[command(flatten)]
         range: LineRange,
     },
-    /// Transfer functions of thrust and torque, and the bandwidth, from a step or pseudo-random sequence.
+    /// Find transfer functions of thrust and torque, and the bandwidth, from a step or pseudo-random sequence.
     RotorResponse(Common),
-    /// Thrust curve, motor lag and moments of inertia from a flight log (CSV, or PX4's .ulg); needs --vehicle.
+    /// Find the thrust curve, motor lag and moments of inertia from a flight log (CSV, or PX4's .ulg); needs --vehicle.
     Flight {
         #[command(flatten)]
         common: Common,
         #[command(flatten)]
         flown: Flown,
     },
-    /// Prints an example of a file, its columns and units explained: `identify template pendulum > my.csv`.
+    /// Print an example measurement file with its columns and units explained: `identify template pendulum > my.csv`.
     Template {
-        /// Which identification's file.
+        /// Identification that reads the file.
         kind: Kind,
     },
 }

@@ -17,7 +17,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Exit code when the data or a file are refused.
+/// Exit code when the data or a file are rejected.
 const REFUSED: u8 = 1;
 
 /// Exit code for bad usage.
@@ -28,7 +28,7 @@ const NOT_WRITTEN: u8 = 3;
 
 /// Why the program ends before its work.
 enum Stop {
-    /// Data or a file that is refused.
+    /// Data or a file that is rejected.
     Refused(Box<dyn Error>),
     /// An output that is an input or another output.
     Clash(::output::Clash),
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
         Err(Stop::Clash(clash)) => (BAD_USAGE, clash.to_string()),
         Err(Stop::NotWritten(path, error)) => (
             NOT_WRITTEN,
-            format!("{}: can't be written: {error}", path.display()),
+            format!("{}: cannot be written: {error}", path.display()),
         ),
     };
     complain(&format!("error: {why}"));
@@ -89,7 +89,7 @@ fn say(text: &str) -> Result<(), Stop> {
         .map_err(|error| Stop::NotWritten("standard output".into(), error))
 }
 
-/// Writes a file as a whole.
+/// Writes a file atomically.
 fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Stop> {
     ::output::replace(path, content).map_err(|error| Stop::NotWritten(path.to_owned(), error))
 }
@@ -107,7 +107,7 @@ fn run(what: &What) -> Result<(), Stop> {
     };
     check_outputs(common)?;
     let identified = command::identify(what, &mut answer);
-    // What the reader noticed may be the reason of a refusal: said in both cases.
+    // What the reader noticed may explain a rejection, so it is reported in both cases.
     for warning in &answer.warnings {
         complain(&format!("warning: {warning}"));
     }

@@ -7,7 +7,7 @@ use sysid::Estimate;
 
 /// An identified number.
 pub(crate) struct Found {
-    /// Its key in a vehicle file, `group.name` or `group.name[i]`; a name without a dot stands in no file.
+    /// Its key in a vehicle file, `group.name` or `group.name[i]`; a name without a dot is in no file.
     pub(crate) key: String,
     /// Its unit; `1` if it has none.
     unit: &'static str,
@@ -20,7 +20,7 @@ pub(crate) struct Found {
 #[derive(Default)]
 pub(crate) struct Answer {
     pub(crate) found: Vec<Found>,
-    /// What must be known before the numbers are used.
+    /// What the user must know before using the numbers.
     pub(crate) warnings: Vec<String>,
     /// Data, fit and residuals.
     pub(crate) figure: Option<Figure>,
@@ -35,14 +35,14 @@ impl Answer {
         self.push_made(key, unit, estimate, "");
     }
 
-    /// Refuses numbers that the data don't determine: a fit may end with a parameter on which nothing that was measured depends.
+    /// Rejects numbers that the data don't determine: a fit may end with a parameter that has no effect on the measurements.
     pub(crate) fn check(&self) -> Result<(), String> {
         let is_known = |f: &&Found| f.estimate.value.is_finite() && f.estimate.standard_error.is_finite();
         match self.found.iter().find(|found| !is_known(found)) {
             Some(Found {
                 key, unit, estimate, ..
             }) => Err(format!(
-                "the data don't determine {key}: {} {unit} with a standard error of {}; a record with more changes of the input does",
+                "the data do not determine {key}: {} {unit} with a standard error of {}; record more changes of the input",
                 estimate.value, estimate.standard_error
             )),
             None => Ok(()),
@@ -61,7 +61,7 @@ impl Answer {
 }
 
 impl Found {
-    /// What a vehicle file says of where the number comes from: the command, the measurements, the choices.
+    /// The source of the number for the vehicle file: the command, the measurements, the choices.
     pub(crate) fn source(&self, command: &str, data: &Path) -> String {
         let file = data
             .file_name()

@@ -19,7 +19,7 @@ pub(crate) fn path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match format(&path) {
         Some(_) => Ok(path),
-        None => Err("the name must end with .svg or .png".to_owned()),
+        None => Err("a plot must end in .svg or .png".to_owned()),
     }
 }
 

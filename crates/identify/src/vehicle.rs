@@ -48,7 +48,7 @@ fn updated(
             None => (name, None),
         };
         let entry = entry(&mut document, group, name)
-            .ok_or_else(|| format!("{origin}: {group}.{name} is no table with value and source"))?;
+            .ok_or_else(|| format!("{origin}: `{group}.{name}` must be a table with value and source"))?;
         let numbers = [
             ("value", estimate.value),
             ("standard_error", estimate.standard_error),

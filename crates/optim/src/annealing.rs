@@ -140,7 +140,7 @@ impl Stepwise<Walk> {
     }
 }
 
-/// The standard deviation of the costs that are none of failures; 1 where it is zero.
+/// The standard deviation of the costs without failures; 1 where it is zero.
 fn deviation(told: &[Vertex]) -> f64 {
     let costs: Vec<f64> = told
         .iter()
@@ -263,7 +263,7 @@ impl Walk {
 
 impl Rule for Walk {
     fn next(&mut self, space: &Space, mut told: Vec<Vertex>) -> Next {
-        // Before the first move every cost told is the sample's.
+        // Before the first move every cost is the sample's.
         if self.here.cost() == NO_COST {
             self.temperature.get_or_insert(deviation(&told));
             self.here = told.swap_remove(0);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The cost told in place of one that is not finite: worse than any that is, and differences of it stay finite.
+/// The cost that replaces a non-finite one: worse than any finite cost, and its differences stay finite.
 pub const FAILED_COST: f64 = 1e300;
 
 /// The cost of a point that has none yet: worse than any, and a number that JSON can write.

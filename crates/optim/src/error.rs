@@ -77,11 +77,11 @@ impl SetupError {
     }
 }
 
-/// Why an optimiser can't be told an answer.
+/// Why an optimiser can't take an answer.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TellError {
     /// A candidate that was not asked for, or is answered twice.
-    #[error("candidate {id} is not awaited: it was never asked for, or was answered already")]
+    #[error("candidate {id} is not awaited: it was never proposed, or was answered already")]
     NotAwaited {
         /// The candidate.
         id: u64,

@@ -1,14 +1,14 @@
-//! Optimisers that are asked for candidates and told what they cost.
+//! Ask/tell optimisers: ask for candidates, tell their costs.
 //!
 //! | you have | use | kind | side by side | source |
 //! | --- | --- | --- | --- | --- |
 //! | a cost, and a start in the right valley | [`NelderMead`] | local simplex | its first simplex, its shrinking | Nelder and Mead 1965, rules of Lagarias et al. 1998 |
 //! | variables that hardly interact, several valleys along one | [`LineSearch`] | one variable after the other, over a box that is then narrowed | its scans | Kiefer 1953 (golden section) |
-//! | no idea where, and thousands of evaluations | [`Evolution`] | global, a population | each generation | Storn and Price 1997 |
+//! | no good start, and thousands of evaluations | [`Evolution`] | global, a population | each generation | Storn and Price 1997 |
 //! | the same, and evaluations one at a time | [`Annealing`] | global, one walker | the sample that sets its first temperature | Corana et al. 1987 |
 //! | a cost with its gradient | [`QuasiNewton`], [`gradient_by_dual_numbers`] | local | no | Bertsekas 1982 (projected BFGS) |
-//! | a dear cost and cheap approximations of it | [`multi_fidelity`] | the cheap ones searched globally, the dear one within a trust region | no | March and Willcox 2012 |
-//! | a yardstick | [`RandomSearch`] | uniform | all | |
+//! | an expensive cost and cheap approximations of it | [`multi_fidelity`] | the cheap ones searched globally, the expensive one within a trust region | no | March and Willcox 2012 |
+//! | a baseline to compare with | [`RandomSearch`] | uniform | all | |
 //!
 //! All of them keep candidates within the bounds, take anything random from a seed, can be saved (serde) at any time and
 //! resume as if they had not been interrupted, and end with a [`StopReason`]. [`minimise`], [`run`] and [`run_parallel`] drive them
@@ -31,13 +31,13 @@
 //! that it is merely the worst. Tolerances of variables are shares of the width between their bounds; tolerances of costs are in
 //! the cost's unit. Not converged is a result with a reason, not an error; `Err` is for a wrong question.
 //!
-//! # Why not a library's
+//! # Why not an existing library
 //!
 //! argmin's solvers call the cost from inside their own iteration, have no bounds, and keep their state (the simplex,
-//! the generator) to themselves: they can be asked and told only by a second thread or by replaying every cost known so far,
-//! and neither can be saved. Crate `cmaes` too is driven by a closure and can't be saved, and it is built on an older
-//! nalgebra. So the text-book algorithms are here, each one function `next` that reads as its source; SciPy's
-//! are their oracles in the tests.
+//! the generator) private: an ask/tell interface to them needs a second thread or a replay of every cost so far, and neither can
+//! be saved. Crate `cmaes` too is driven by a closure and can't be saved, and it is built on an older
+//! nalgebra. So this crate has the textbook algorithms, each one function `next` that reads like its source; tests compare
+//! them with SciPy's.
 //!
 //! # What it does not do
 //!

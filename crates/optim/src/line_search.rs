@@ -27,7 +27,7 @@ pub struct LineSearchSettings {
     pub gain: f64,
     /// Most sweeps of one round; at least 1.
     pub sweeps: u32,
-    /// Boxes searched, the whole one included; at least 1.
+    /// Number of boxes searched, including the full one; at least 1.
     pub rounds: u32,
     /// Width of a box over that of the one before, between 0 and 1.
     pub narrowing: f64,
@@ -67,7 +67,7 @@ struct Probe {
     cost: f64,
 }
 
-/// What was asked for last.
+/// The last question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum Stage {
     Start,

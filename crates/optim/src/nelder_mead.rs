@@ -57,7 +57,7 @@ impl Default for SimplexSettings {
     }
 }
 
-/// What was asked for last.
+/// The last question.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum Move {
     /// Every vertex that has no cost yet.
@@ -231,7 +231,7 @@ impl Simplex {
         Some(Next::Ask(vec![self.along(space, -psi)]))
     }
 
-    /// Applies what was told; a further question of the same iteration, if there is one.
+    /// Applies the answers; returns a further question of the same iteration, if any.
     fn settle(&mut self, space: &Space, mut told: Vec<Vertex>) -> Option<Next> {
         match std::mem::replace(&mut self.last, Move::Reflect) {
             Move::Fill => self.vertices.append(&mut told),

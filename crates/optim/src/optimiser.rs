@@ -98,7 +98,7 @@ impl fmt::Display for StopReason {
 /// Proposes decision vectors and learns what they cost.
 ///
 /// `A` is what a cost function answers: a cost, or a cost with its gradient ([`CostAndGradient`](crate::CostAndGradient)). Several
-/// candidates may be asked for before one is told, in any order, as far as the algorithm has something to propose. Anything random
+/// candidates may be asked for before one is answered, in any order, as far as the algorithm has something to propose. Anything random
 /// comes from a seed, so the same seed and the same costs give the same run.
 pub trait Optimiser<A = f64> {
     /// What is decided on.
@@ -119,7 +119,7 @@ pub trait Optimiser<A = f64> {
     /// The best so far.
     fn best(&self) -> Option<&Evaluation>;
 
-    /// How many answers it was told.
+    /// Number of answers it has received.
     fn evaluations(&self) -> u64;
 
     /// Why it ended; `None` while it continues.

@@ -1,4 +1,4 @@
-//! Projected BFGS: a local method that is told gradients.
+//! Projected BFGS: a local method that uses gradients.
 //!
 //! In shares of the box, `u = (x − l)/w`, with `g = ∂f/∂u` and an estimate `H` of the inverse Hessian:
 //!
@@ -71,7 +71,7 @@ struct Point {
     g: Vec<f64>,
 }
 
-/// Projected BFGS, told [`CostAndGradient`].
+/// Projected BFGS, for answers with [`CostAndGradient`].
 pub type QuasiNewton = Stepwise<ProjectedBfgs, CostAndGradient>;
 
 impl Stepwise<ProjectedBfgs, CostAndGradient> {

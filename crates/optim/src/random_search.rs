@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Uniformly random candidates within the bounds, a given number of them.
 ///
 /// Candidate k is drawn from stream k of a ChaCha8 generator with the seed: it doesn't depend on what was
-/// asked or told before, so a saved search resumes as if it had not been interrupted.
+/// asked or answered before, so a saved search resumes as if it had not been interrupted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RandomSearch {
     variables: Space,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// How far a run may go. Every limit is the run's own: a search that goes on from a saved state starts at zero again.
+/// How far a run may go. Every limit is the run's own: a search that resumes from a saved state starts at zero again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Evaluations allowed; at least one.
@@ -51,7 +51,7 @@ pub struct Report {
     pub best: Evaluation,
     /// Evaluations of this run.
     pub evaluations: u64,
-    /// Of them, those whose cost was not finite; the optimiser was told [`FAILED_COST`] instead.
+    /// Of them, those whose cost was not finite; the optimiser received [`FAILED_COST`] instead.
     pub failed: u64,
     /// How long it took.
     pub elapsed: Duration,
@@ -160,7 +160,7 @@ fn drive<A: Answer>(
         evaluations: run.evaluations,
         failed: run.failed,
         elapsed: run.began.elapsed(),
-        // A search that awaits nothing, proposes nothing and has not ended can't go on.
+        // A search that awaits nothing, proposes nothing and has not ended is stuck.
         stop: stop.unwrap_or(StopReason::Stalled { iterations: 0 }),
         history: run.history,
     })

@@ -54,7 +54,7 @@ impl Space {
     /// An error unless `start` has one value per variable, within the bounds.
     ///
     /// # Errors
-    /// The wrong number of values, or the first value that is out of bounds or no number.
+    /// The wrong number of values, or the first value that is out of bounds or not finite.
     pub fn admit(&self, start: &[f64]) -> Result<(), SetupError> {
         let (expected, found) = (self.dimension(), start.len());
         if expected != found {

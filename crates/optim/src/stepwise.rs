@@ -91,7 +91,7 @@ impl<A, R: Rule<A>> Stepwise<R, A> {
         &self.space
     }
 
-    /// Where an awaited candidate stands in the batch.
+    /// Where an awaited candidate is in the batch.
     fn place(&self, id: u64) -> Result<usize, TellError> {
         let place = id.checked_sub(self.first_id).map(|k| k as usize);
         let awaited = |slot: &Slot<A>| slot.proposed && slot.answer.is_none();

@@ -1,4 +1,4 @@
-//! A file replaced as a whole, and an output that is refused because it is an input under another name.
+//! A file replaced atomically, and an output that is rejected because it is an input under another name.
 //!
 //!     cargo run --release -p output --example replace_a_file
 

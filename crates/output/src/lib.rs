@@ -1,4 +1,4 @@
-//! What every program here does with files and text.
+//! Files and text of the programs: inputs never overwritten, files replaced atomically, bounded reads, safe output.
 //!
 //! | you want to | use |
 //! | --- | --- |
@@ -11,7 +11,7 @@
 //! | print text that came from a file | [`escaped`], [`message`], [`is_printable`] |
 //! | notice that a line or a file was changed | [`checksum`] |
 //!
-//! Assumptions: files are told apart by device and inode where the system has them, by their canonical path elsewhere. Locks are
+//! Assumptions: files are distinguished by device and inode where the system has them, by their canonical path elsewhere. Locks are
 //! advisory: they keep programs that use [`open_alone`] apart, no others.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! Files that are written as a whole, or by one program at a time.
+//! Files that are replaced atomically, or written by one program at a time.
 
 use crate::apart::followed;
 use std::collections::hash_map::RandomState;

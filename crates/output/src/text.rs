@@ -1,12 +1,12 @@
 //! Text from files, made safe and short enough to print.
 //!
 //! A terminal obeys control characters (it clears its screen, changes its title, answers as if somebody typed), and characters that
-//! reverse the direction of writing make one text look like another.
+//! reverse the direction of writing make a text look like another.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Characters of a word that a message shows as a whole: no name of ours and no usual path is longer.
+/// Longest word, in characters, that a message shows in full: no name of ours and no usual path is longer.
 const LONGEST_WORD: usize = 300;
 
 /// Characters that are left of a longer one.

@@ -69,7 +69,7 @@ impl<R: Real> RotorGeometry<R> {
 }
 
 impl<R: Real> CommandLimits<R> {
-    /// The limits of a vehicle's zeroed commands.
+    /// The limits of a vehicle's commands u.
     pub fn of(vehicle: &Vehicle) -> Self {
         Self::with(&vehicle.map(constant))
     }

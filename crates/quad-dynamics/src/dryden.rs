@@ -106,7 +106,7 @@ impl<R: Real> Dryden<R> {
 }
 
 impl<R: Real> DrydenState<R> {
-    /// A state of turbulence that has gone on for ever: `x` and `x_1` of variance 1, `x_2` of variance ½ and covariance ½.
+    /// A state of turbulence that has continued for ever: `x` and `x_1` of variance 1, `x_2` of variance ½ and covariance ½.
     pub fn stationary(noise: &DrydenNoise<R>) -> Self {
         let half = constant::<R>(0.5);
         let pair = |[n_1, n_2]: [R; 2]| [n_1, (n_1 + n_2) * half];

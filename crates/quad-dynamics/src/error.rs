@@ -20,7 +20,7 @@ pub enum BuildError {
     },
     /// The commands that would hold hover lie outside the vehicle's PWM range.
     #[error(
-        "{vehicle} can't hover at {model}: rotor {rotor} needs raw PWM {command:.4}, the range is {minimum} to {maximum}"
+        "{vehicle} can't hover at {model}: rotor {rotor} needs a raw PWM of {command:.4}, outside {minimum} to {maximum}"
     )]
     HoverOutOfRange {
         /// The vehicle's name.

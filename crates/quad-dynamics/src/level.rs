@@ -208,7 +208,7 @@ impl fmt::Display for Level {
 
 /// A number that is no level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no level {number}: the family has {}", named(&Level::ALL))]
+#[error("unknown level {number}; the family has {}", named(&Level::ALL))]
 pub struct NoSuchLevel {
     /// The number.
     pub number: u8,

@@ -4,18 +4,18 @@
 //! ([`Level1`] to [`Level5`], or [`MechanisticQuadrotor`], the 'truth' behind levels 4 and 5) or by value
 //! ([`AnyQuadrotor`]); both offer the same ([`QuadrotorModel`]).
 //!
-//! | level | rigid body | rotor | switched on by itself | states |
+//! | level | rigid body | rotor | phenomena of its own | states |
 //! | --- | --- | --- | --- | --- |
 //! | [`Level1`] | linear about hover at the present heading | ideal, `T = K_T u` | | 12 |
 //! | [`Level2`] | Newton-Euler, quaternion | ideal | | 13 |
 //! | [`Level3`] | as 2 | first order, `Ṫ = ω_R (K_T u − T)` | | 17 |
 //! | [`Level4`] | as 2 | identified transfer functions | drag, gyroscopic torque | 29 |
 //! | [`Level5`] | as 2 | polynomials in PWM and voltage, then as 4 | + input limits, voltage sag | 30 |
-//! | [`MechanisticQuadrotor`] | as 2 | motor and propeller, states `Ω`, `V` | as asked | 22 |
+//! | [`MechanisticQuadrotor`] | as 2 | motor and propeller, states `Ω`, `V` | as given | 22 |
 //!
-//! What a model has besides rigid body and rotors is a set of phenomena ([`PhenomenonSet`]), each
-//! switched on and off by itself; [`Level::phenomena`] is the level's own set. Each declares what it needs
-//! ([`Prerequisite`]); a model without that is refused. Turbulence, wind shear and process noise act from outside: their physics is
+//! Besides rigid body and rotors a model has a set of phenomena ([`PhenomenonSet`]), each switched on and off
+//! separately; [`Level::phenomena`] is the level's own set. Each declares what it needs ([`Prerequisite`]); a
+//! model without that is rejected. Turbulence, wind shear and process noise act from outside: their physics is
 //! here and takes its random numbers as arguments, the engine draws them.
 //!
 //! ```
@@ -68,8 +68,8 @@
 //! # Conventions
 //!
 //! World W north-east-down, body B forward-right-down with its origin at the centre of mass; height is `−z`.
-//! Rotors of a '+' layout: 1 rear, 2 front, 3 left, 4 right. Commands are *zeroed* duties
-//! `u_i = ū_i − ū_0` ([`Input`]). SI units, rad. The types do not guard units or frames here: names and
+//! Rotors of a '+' layout: 1 rear, 2 front, 3 left, 4 right. Commands are offsets of the duty
+//! from zero thrust, `u_i = ū_i − ū_0` ([`Input`]). SI units, rad. The types do not guard units or frames here: names and
 //! docs say them.
 //!
 //! # Changing the level in flight

@@ -28,7 +28,7 @@ use quad_rotor::{Battery, MechanisticRotor, Propeller, RotorInput, RotorModel, R
 /// The mechanistic vehicle: motors and propellers from first principles, on a battery.
 pub type MechanisticQuadrotor<R> = Quadrotor<R, MechanisticRotor<R>, Battery<R>>;
 
-/// Limits on the zeroed commands.
+/// Limits on the commands u.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommandLimits<R: Real> {
     /// `ū_min − ū_0`.
@@ -257,7 +257,7 @@ impl<R: Real, M: RotorModel<R>, S: Supply<R>> System<R> for Quadrotor<R, M, S> {
 
 /// A quadrotor whose switchable parts are all off, resolved before the loop rather than in it.
 ///
-/// The same text without the questions; [`quad_math::Batch`] needs it, since a switch inside a loop over
+/// The same code without switches; [`quad_math::Batch`] needs it, since a switch inside a loop over
 /// vehicles keeps the loop scalar. Made by [`Quadrotor::bare`].
 #[derive(Debug)]
 pub struct Bare<'a, R: Real, M, S>(&'a Quadrotor<R, M, S>);

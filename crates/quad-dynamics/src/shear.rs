@@ -38,7 +38,7 @@ pub enum ShearProfile {
 pub struct Shear {
     /// Its law.
     pub profile: ShearProfile,
-    /// Height h_ref above the ground, m, at which the mean wind is as stated; 20 ft unless told otherwise.
+    /// Height h_ref above the ground, m, at which the mean wind is as stated (default: 20 ft).
     #[serde(default = "Shear::default_reference")]
     pub reference_height_m: f64,
 }
@@ -48,7 +48,7 @@ pub struct Shear {
 pub enum ShearError {
     /// A roughness that is not positive and below the reference height.
     #[error(
-        "a roughness length of {roughness_m} m with a reference height of {reference_height_m} m: it must lie above 0 and below the reference height"
+        "the roughness length must lie above 0 and below the reference height, {reference_height_m} m, got {roughness_m} m"
     )]
     Roughness {
         /// Roughness length, m.
@@ -58,7 +58,7 @@ pub enum ShearError {
     },
     /// An exponent outside 0 to 1.
     #[error(
-        "an exponent of {exponent} in the power law of the wind: it must lie in 0 to 1; 0.143 is open ground"
+        "the exponent of the wind's power law must lie in 0 to 1 (0.143 for open ground), got {exponent}"
     )]
     Exponent {
         /// Exponent.
@@ -66,7 +66,7 @@ pub enum ShearError {
     },
     /// A height that is not above the ground.
     #[error(
-        "a reference height of {reference_height_m} m for the wind: it must be above the ground (20 ft = 6.096 m is usual)"
+        "the wind's reference height must be positive (usually 20 ft = 6.096 m), got {reference_height_m} m"
     )]
     Height {
         /// Reference height, m.
@@ -183,7 +183,7 @@ mod tests {
         }
         let message = with(rough(0.1), -20.0).unwrap_err().to_string();
         assert!(
-            message.contains("-20 m") && message.contains("above the ground"),
+            message.contains("-20 m") && message.contains("must be positive"),
             "{message}"
         );
         assert!(matches!(

@@ -299,7 +299,7 @@ fn exact_levels_and_their_numbers() {
     assert_eq!(Level::try_from(number), Err(NoSuchLevel { number }));
     assert_eq!(
         NoSuchLevel { number }.to_string(),
-        "there is no level 6: the family has levels 1 to 5"
+        "unknown level 6; the family has levels 1 to 5"
     );
     assert_eq!((Level::One.below(), Level::Two.below()), (None, Some(Level::One)));
     assert_eq!(

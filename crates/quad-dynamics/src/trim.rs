@@ -92,7 +92,7 @@ impl<M: RotorModel<f64>, S: Supply<f64>> RotorSet<f64, M, S> {
         check_hover(vehicle, model, within_limits, commands)
     }
 
-    /// Zeroed commands that give these steady thrusts, N, with the voltage that they leave.
+    /// Commands u that give these steady thrusts, N, with the voltage that they leave.
     fn settled_commands(&self, thrusts: &Vector4<f64>) -> [f64; 4] {
         let supply = self.supply.full();
         let mut voltage = self.supply.voltage(&supply, 0.0);

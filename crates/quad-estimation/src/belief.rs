@@ -81,7 +81,7 @@ pub(crate) fn symmetrised(p: &DMatrix<f64>) -> DMatrix<f64> {
     (p + p.transpose()) * 0.5
 }
 
-/// What a measurement told.
+/// The innovation of a measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Innovation {
     /// The innovation `ν = y − ŷ`.

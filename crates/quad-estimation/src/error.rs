@@ -5,7 +5,7 @@
 pub enum EstimationError {
     /// A state or covariance of the wrong size.
     #[error(
-        "{what} has {found} numbers where the filter's model has {expected}: was it made for another level?"
+        "{what} has {found} numbers, the filter's model needs {expected}: was it made for another level?"
     )]
     Length {
         /// What the numbers are.
@@ -16,7 +16,7 @@ pub enum EstimationError {
         found: usize,
     },
     /// A number that is NaN or infinite.
-    #[error("{what} must be finite, not {value}")]
+    #[error("{what} must be finite, got {value}")]
     NotFinite {
         /// What the number is.
         what: &'static str,
@@ -25,7 +25,7 @@ pub enum EstimationError {
     },
     /// A covariance with a variance that is not positive.
     #[error(
-        "variance {place} of the covariance must be positive, not {variance}: give every state an uncertainty"
+        "variance {place} of the covariance must be positive, got {variance}: give every state an uncertainty"
     )]
     NonPositiveVariance {
         /// Place in the error state.
@@ -52,7 +52,7 @@ pub enum EstimationError {
     )]
     NotPositiveDefinite,
     /// A standard deviation, noise density or gate that is not positive and finite.
-    #[error("{what} must be positive and finite, not {value}")]
+    #[error("{what} must be positive and finite, got {value}")]
     BadNoise {
         /// What it is, with its unit.
         what: &'static str,
@@ -60,7 +60,7 @@ pub enum EstimationError {
         value: f64,
     },
     /// A step that is not positive and finite.
-    #[error("a prediction must go forward in time by a finite step, not by {step_s} s")]
+    #[error("a prediction must go forward in time by a finite step, got {step_s} s")]
     BadStep {
         /// The step, s.
         step_s: f64,
@@ -86,12 +86,12 @@ pub enum EstimationError {
         /// The oldest instant that the filter can go back to, ns.
         oldest_ns: u64,
     },
-    /// An estimate that left the numbers; the filter keeps the last good one.
-    #[error("the estimate left the numbers; the filter is as it was before")]
+    /// The estimate became non-finite; the filter keeps the last finite one.
+    #[error("the estimate became NaN or infinite; the filter was left unchanged")]
     Diverged,
     /// The spread of an unscented filter's points.
     #[error(
-        "an unscented filter's points need 0 < alpha ≤ 1 and alpha² (n + kappa) > 0, and a finite beta, not alpha = {alpha}, beta = {beta}, kappa = {kappa}, n = {n}"
+        "an unscented filter's points need 0 < alpha ≤ 1, alpha² (n + kappa) > 0 and a finite beta, got alpha = {alpha}, beta = {beta}, kappa = {kappa}, n = {n}"
     )]
     BadSpread {
         /// α.

@@ -1,7 +1,7 @@
 //! A filter with a clock and a memory: measurements that come late are taken in where they belong.
 //!
 //! It remembers what it believed before the measurements of each instant, the inputs since and the measurements. A
-//! reading taken at τ < t is filed at τ, and the filter goes on from there again: exactly what it would believe had the
+//! reading taken at τ < t is filed at τ, and the filter resumes from there again: exactly what it would believe had the
 //! reading come in time (Larsen et al., *CDC* 1998, compare the cheaper approximations). Costs the delay's predictions once more for
 //! each late reading. A measurement older than the memory is an error and changes nothing.
 
@@ -125,7 +125,7 @@ impl<F: Filter<Process = LevelProcess>> Estimator<F> {
         crate::estimate(&mut self.filter)
     }
 
-    /// Goes on to this time with this input held.
+    /// Predicts to this time with this input held.
     ///
     /// # Errors
     /// A time that is not ahead; inputs that are not finite; a belief that leaves the numbers. It then stays where it is.
@@ -153,7 +153,7 @@ impl<F: Filter<Process = LevelProcess>> Estimator<F> {
         Ok(())
     }
 
-    /// Takes a measurement in, however late; tells what it told at the instant it belongs to.
+    /// Processes a measurement, however late; returns its innovation at the instant it belongs to.
     ///
     /// # Errors
     /// A measurement ahead of the filter or older than its memory; readings that are not finite or of the wrong number; a belief that
@@ -203,7 +203,7 @@ impl<F: Filter<Process = LevelProcess>> Estimator<F> {
         self.filter.update(input, observation, gate)
     }
 
-    /// Files the observation at its instant, at or behind epoch `place`, and goes on from there to the present.
+    /// Files the observation at its instant, at or behind epoch `place`, and resumes from there to the present.
     fn replay(
         &mut self,
         place: usize,

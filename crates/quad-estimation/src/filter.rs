@@ -46,7 +46,7 @@ pub trait Filter {
         step_s: f64,
     ) -> Result<Belief, EstimationError>;
 
-    /// The belief after an observation, and what that told; unchanged where the NIS is beyond the gate.
+    /// The belief after an observation, and its innovation; the belief is unchanged where the NIS is beyond the gate.
     ///
     /// # Errors
     /// A covariance without Cholesky factor.
@@ -57,7 +57,7 @@ pub trait Filter {
         gate: Option<f64>,
     ) -> Result<(Belief, Innovation), EstimationError>;
 
-    /// Goes on by a step of h seconds with this input held.
+    /// Continues by a step of h seconds with this input held.
     ///
     /// # Errors
     /// A step that is not positive; a belief that leaves the numbers or loses its covariance, the old

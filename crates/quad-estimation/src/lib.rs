@@ -1,4 +1,4 @@
-//! State estimation with poor sensors, its prediction model being any level of the family.
+//! State estimation with poor sensors; the prediction model is any level of the family.
 //!
 //! ```
 //! use quad_dynamics::{AnyQuadrotor, Level, Vehicle};
@@ -31,7 +31,7 @@
 //! }
 //! let estimate = estimator.estimate();
 //! let error = estimate.error(&truth.snapshot(&input).body);
-//! println!("{:.3} m off, ± {:.3} m stated", error.position.norm(), estimate.deviations()[0]);
+//! println!("{:.3} m off, reported ± {:.3} m", error.position.norm(), estimate.deviations()[0]);
 //! assert!(error.position.norm() < 0.3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -53,7 +53,7 @@ impl Default for AdaptiveOptions {
 pub enum AdaptiveError {
     /// A tolerance that is not a positive, finite number.
     #[error(
-        "tolerances must be positive and finite, not {absolute_tolerance} and relative {relative_tolerance}"
+        "tolerances must be positive and finite, got {absolute_tolerance} (absolute) and {relative_tolerance} (relative)"
     )]
     BadTolerance {
         /// The absolute tolerance given.
@@ -62,13 +62,13 @@ pub enum AdaptiveError {
         relative_tolerance: f64,
     },
     /// An initial or longest step that is not positive (or an initial one that is not finite).
-    #[error("steps must be positive, not {step_s} s")]
+    #[error("steps must be positive, got {step_s} s")]
     BadStep {
         /// The step given, s.
         step_s: f64,
     },
     /// Ends that are not finite, or an end before the start.
-    #[error("a run must end after its start, not go from {start_s} s to {end_s} s")]
+    #[error("a run must end after its start, got {start_s} s to {end_s} s")]
     BadSpan {
         /// The start given, s.
         start_s: f64,

@@ -32,7 +32,7 @@ const Q: [f64; 5] = [
 
 /// The angle of the point `(x, y)` from the x axis, rad, in `[−π, π]`; 0 at the origin.
 ///
-/// Within 1e-15 of the library's `atan2` for finite arguments on `f64`. Signed zeros are not told apart.
+/// Within 1e-15 of the library's `atan2` for finite arguments on `f64`. Signed zeros are not distinguished.
 ///
 /// ```
 /// let angle = quad_math::atan2(-1.0_f64, -1.0);

@@ -1,4 +1,4 @@
-//! Many vehicles at once: the scalar text of a model, vectorised over vehicles.
+//! Many vehicles at once: the scalar code of a model, vectorised over vehicles.
 //!
 //! A [`Batch`] holds its states as a structure of arrays, in blocks of [`LANES`] vehicles: row `k` of a
 //! block is number `k` ([`Flat`]'s order) of each. Its loop reads one vehicle, steps it by the model's own text

@@ -1,4 +1,4 @@
-//! Machine code for the processor that is there, from a build for any processor.
+//! Machine code for the processor at hand, from a build for any processor.
 //!
 //! A build for plain x86-64 may use vectors of two doubles only, although nearly every such machine has
 //! room for four (AVX2) or eight (AVX-512). [`dispatch`] compiles a job once for each of these

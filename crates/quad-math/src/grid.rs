@@ -38,25 +38,25 @@ pub enum GridError {
     #[error("the tick of a time grid must be at least 1 ns")]
     ZeroTick,
     /// A step that is not a positive, finite number.
-    #[error("the step of a time grid must be positive and finite, not {step_s} s")]
+    #[error("the step of a time grid must be positive and finite, got {step_s} s")]
     BadStep {
         /// The step given, s.
         step_s: f64,
     },
     /// An end that is not a positive, finite number.
-    #[error("the end of a time grid must be positive and finite, not {end_s} s")]
+    #[error("the end of a time grid must be positive and finite, got {end_s} s")]
     BadEnd {
         /// The end given, s.
         end_s: f64,
     },
     /// A time that is not a whole number of nanoseconds.
-    #[error("{time_s} s is not a whole number of nanoseconds")]
+    #[error("a time must be a whole number of nanoseconds, got {time_s} s")]
     NotWholeNanoseconds {
         /// The time given, s.
         time_s: f64,
     },
     /// An end that no instant of the grid meets.
-    #[error("the end {end_ns} ns is not a whole number of steps of {tick_ns} ns")]
+    #[error("the end must be a multiple of the step, {tick_ns} ns, got {end_ns} ns")]
     EndOffGrid {
         /// The tick, ns.
         tick_ns: u64,
@@ -64,7 +64,7 @@ pub enum GridError {
         end_ns: u64,
     },
     /// A span beyond 2⁵⁰ ns, about 13 days, where seconds in an `f64` begin to lose nanoseconds.
-    #[error("a time grid of {span_s} s exceeds the longest span of 2^50 ns")]
+    #[error("a time grid may span at most 2^50 ns, got {span_s} s")]
     TooLong {
         /// The span asked for, s.
         span_s: f64,

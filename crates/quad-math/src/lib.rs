@@ -1,7 +1,7 @@
 //! The mathematics below the physics: scalars, states, integration, derivatives, time grids, polynomials.
 //!
-//! One text serves many scalars. A model generic in `R:` [`Real`] runs on `f64`, on dual numbers (its
-//! Jacobian is then exact) and on SIMD lanes (several vehicles at once):
+//! One implementation serves many scalars. A model generic in `R:` [`Real`] runs on `f64`, on dual numbers (its
+//! Jacobian is then exact) and on SIMD lanes (several vehicles in one processor instruction):
 //!
 //! | you have | you want | use |
 //! | --- | --- | --- |
@@ -15,7 +15,7 @@
 //!
 //! # Example
 //!
-//! A damped oscillator `ẍ = -4x - 0.4ẋ`, written once, stepped on a grid and linearised by the same text.
+//! A damped oscillator `ẍ = -4x - 0.4ẋ`, written once, stepped on a grid and linearised by the same code.
 //!
 //! ```
 //! use nalgebra::{Matrix2, Vector2};
@@ -37,7 +37,7 @@
 //!
 //! # What it does not do
 //!
-//! No units in the types: times are seconds and everything else is in the unit its owner says. The integrators
+//! No units in the types: times are seconds and everything else is in the unit that its owner documents. The integrators
 //! are explicit, for non-stiff problems. A step of constant input or smooth `f` is assumed: a kink within a
 //! step costs accuracy whatever the order, so put kinks on the ends of steps.
 

@@ -149,13 +149,13 @@ pub enum End {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SegmentError {
     /// A duration that is not a positive, finite number.
-    #[error("the duration of a polynomial segment must be positive and finite, not {duration_s} s")]
+    #[error("the duration of a polynomial segment must be positive and finite, got {duration_s} s")]
     BadDuration {
         /// The duration given, s.
         duration_s: f64,
     },
     /// A boundary value that is NaN or infinite (in any lane).
-    #[error("derivative {order} at the {end:?} of a polynomial segment is not a finite number")]
+    #[error("derivative {order} at the {end:?} of a polynomial segment must be finite")]
     NotFinite {
         /// At which end.
         end: End,

@@ -160,9 +160,9 @@ pub struct Record {
     pub time_s: f64,
     /// What was seen of the flight.
     pub flight: Flight<f64>,
-    /// What was asked for.
+    /// The reference.
     pub reference: Reference<f64>,
-    /// Zeroed commands `u_i` from this instant on.
+    /// Commands `u_i` from this instant on.
     pub commands: [f64; 4],
     /// Pseudo-inputs `u* = C u`: collective, lateral, longitudinal, yaw.
     pub pseudo_inputs: [f64; 4],

@@ -48,14 +48,16 @@ pub enum ControllerError {
     #[error(transparent)]
     Settings(#[from] SettingsError),
     /// The rotors don't give thrust and three moments independently.
-    #[error("the control matrix of {vehicle} is singular: its rotors can't give thrust and three moments")]
+    #[error(
+        "the allocation (control) matrix of {vehicle} is singular: its rotors can't produce thrust and three moments"
+    )]
     SingularControlMatrix {
         /// The vehicle's name.
         vehicle: String,
     },
     /// The controller needs more than the model has.
     #[error(
-        "a controller of {controller} can't fly a model of {model}: use a model of {controller} or higher, or a \
+        "a controller for {controller} can't fly a model of {model}: use a model of {controller} or higher, or a \
          controller of {model} or lower"
     )]
     ModelBelowController {
@@ -93,9 +95,9 @@ pub struct Allocation<R: Real> {
     pub demand_from_thrusts: Matrix4<R>,
     /// Its inverse.
     pub thrusts_from_demand: Matrix4<R>,
-    /// The control matrix C: pseudo-inputs `[u_col, u_lat, u_long, u_yaw]` from zeroed commands.
+    /// The control matrix C: pseudo-inputs `[u_col, u_lat, u_long, u_yaw]` from commands u.
     pub control_matrix: Matrix4<R>,
-    /// Thrust gain `K_T`, N per unit of zeroed command.
+    /// Thrust gain `K_T`, N per unit of command u.
     pub thrust_gain: R,
 }
 
@@ -140,7 +142,7 @@ impl<R: Real> Allocation<R> {
         }
     }
 
-    /// Zeroed commands of ideal rotors that give the demand: `u_i = T_i / K_T`.
+    /// Commands u of ideal rotors that give the demand: `u_i = T_i / K_T`.
     #[inline(always)]
     pub fn commands(&self, demand: &Demand<R>) -> [R; 4] {
         let per_thrust = R::one() / self.thrust_gain;

@@ -43,7 +43,7 @@ pub enum InversionError {
         condition: f64,
     },
     /// The relative degree is not between 1 and 3.
-    #[error("relative degree {relative_degree}: this inversion knows 1 to 3")]
+    #[error("the relative degree must be 1 to 3 for this inversion, got {relative_degree}")]
     RelativeDegree {
         /// The relative degree asked for.
         relative_degree: usize,
@@ -111,7 +111,7 @@ impl Decoupling {
         })
     }
 
-    /// The zeroed commands that make `y^(ν) = v`.
+    /// The commands u that make `y^(ν) = v`.
     ///
     /// # Errors
     /// [`InversionError::NearSingular`].

@@ -8,7 +8,7 @@
 //! use quad_ndi::{AnyController, C3, FlightPlan, Flyer, Reference, Settings};
 //! use std::num::NonZeroU64;
 //!
-//! // The inversion of level 3 on level 3, asked to settle in 2 s; 1 m up (z points down).
+//! // The inversion of level 3 on level 3, settling in 2 s; 1 m up (z points down).
 //! let vehicle = Vehicle::qball_x4();
 //! let on = Level::Three.phenomena();
 //! let model = AnyQuadrotor::hovering(Level::Three, &vehicle, &on, Vector3::zeros(), 0.0)?;
@@ -26,15 +26,15 @@
 //!
 //! # The controllers
 //!
-//! Nested loops: position errors make a demanded tilt, tilt errors demanded angular accelerations, and the
-//! linearising feedback of the level turns demands into rotor commands.
+//! Nested loops: position errors give a demanded tilt, tilt errors give demanded angular accelerations, and the
+//! linearising feedback of the level turns these demands into rotor commands.
 //!
 //! | controller | linearising feedback | designed for | knows |
 //! | --- | --- | --- | --- |
 //! | [`C1`] | `T = m (g − v_z)`, `M = I v_η` | level 1 | small angles, ideal rotors |
 //! | [`C2`] | `T = m (g − v_z)/(cos φ cos θ)`, `M = I ω̇ + ω × I ω` with `ω̇ = W v_η + Ẇ η̇` | level 2 | the whole rigid body, ideal rotors |
 //! | [`C3`] | `u_i = (T_i + Ṫ_i/ω_R)/K_T` with `Ṫ`, `Ṁ` from `z⃛ = v_z`, `η⃛ = v_η` | level 3 | as c2, and the rotors' lag |
-//! | [`Decoupling`] | `u = (L_G L_f^(ν−1) h)⁻¹ (v − L_f^ν h)` by automatic differentiation | levels 1 to 3 | what the model's text says |
+//! | [`Decoupling`] | `u = (L_G L_f^(ν−1) h)⁻¹ (v − L_f^ν h)` by automatic differentiation | levels 1 to 3 | what the model's code contains |
 //! | [`Pid`] | none: weight, inertia and allocation only | any level | nothing of coupling or lag |
 //!
 //! A controller may fly any model of its own level or above: [`check_pairing`]. [`Law`] names them; [`Law::paired`] is the inversion that
@@ -61,11 +61,11 @@
 //! # Conventions
 //!
 //! World north-east-down, so climbing is a negative z; body forward-right-down; SI units, rad. Commands are
-//! zeroed duties as in [`quad_dynamics::Input`]. A controller samples the flight at the start of a step and
+//! offsets of the duty from zero thrust, as in [`quad_dynamics::Input`]. A controller samples the flight at the start of a step and
 //! its commands are held over it ([`ClosedLoop::step`], [`Flyer`]); limits on commands are the controller's field
 //! `limits` and, on the model's side, a phenomenon.
 //!
-//! # What it does not protect from
+//! # What it does not protect against
 //!
 //! Where an inversion is singular (84° of tilt and beyond) [`C1`] to [`C3`] saturate: finite commands, but no flight
 //! out of an inverted attitude. The demanded tilt of the inversions is not limited, PID's is. A wrong

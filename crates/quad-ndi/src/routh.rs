@@ -34,25 +34,25 @@ pub enum PolynomialError {
     #[error("a polynomial needs at least one coefficient")]
     Empty,
     /// The coefficient of the highest power is zero.
-    #[error("the leading coefficient of the polynomial of degree {degree} is zero")]
+    #[error("the leading coefficient of a polynomial of degree {degree} must not be zero")]
     ZeroLeading {
         /// The degree that the number of coefficients implies.
         degree: usize,
     },
     /// A coefficient that is NaN or infinite.
-    #[error("the coefficient of s^{power} is not a finite number")]
+    #[error("the coefficient of s^{power} must be finite")]
     NotFinite {
         /// Its power of s.
         power: usize,
     },
     /// An entry beyond the range of numbers, from coefficients of wildly different sizes.
-    #[error("the row of s^{power} leaves the range of numbers; scale time")]
+    #[error("the row of s^{power} overflows: scale time")]
     Overflow {
         /// The row.
         power: usize,
     },
     /// The eigenvalue iteration did not converge.
-    #[error("the eigenvalues of the companion matrix of degree {degree} were not found")]
+    #[error("the eigenvalues of the companion matrix of degree {degree} could not be computed")]
     NoConvergence {
         /// The degree.
         degree: usize,
@@ -317,7 +317,7 @@ impl RouthArray {
     }
 }
 
-/// A row as it stands in the array, after the special cases.
+/// A row as it is in the array, after the special cases.
 fn regularised(row: Vec<Bounded>, upper: &[Bounded], power: usize) -> (Vec<Bounded>, RowOrigin) {
     match row.iter().position(|entry| entry.value != 0.0) {
         Some(0) => (row, RowOrigin::Regular),

@@ -66,7 +66,7 @@ impl Default for AttitudeSettings {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SettingsError {
     /// A number that must be positive and finite.
-    #[error("controller setting `{key}` = {value}: it must be positive and finite")]
+    #[error("controller setting `{key}` must be positive and finite, got {value}")]
     NotPositive {
         /// Which, as in `height.settling_time_s`.
         key: &'static str,
@@ -74,7 +74,7 @@ pub enum SettingsError {
         value: f64,
     },
     /// A PID gain that is negative, NaN or infinite.
-    #[error("PID gain of the {key} loop = {value}: it must be finite and not negative")]
+    #[error("PID gain of the {key} loop must be finite and not negative, got {value}")]
     NegativeGain {
         /// Which loop.
         key: &'static str,
@@ -82,13 +82,13 @@ pub enum SettingsError {
         value: f64,
     },
     /// A largest tilt of 90 degrees or more.
-    #[error("tilt_limit_rad = {tilt_limit_rad}: it must be below π/2")]
+    #[error("tilt_limit_rad must be below π/2, got {tilt_limit_rad}")]
     TiltLimit {
         /// What it was, rad.
         tilt_limit_rad: f64,
     },
     /// A set-point weight outside 0 to 1.
-    #[error("set_point_weight = {set_point_weight}: it must be above 0 and at most 1")]
+    #[error("set_point_weight must be above 0 and at most 1, got {set_point_weight}")]
     SetPointWeight {
         /// What it was.
         set_point_weight: f64,

@@ -35,26 +35,28 @@ const SMALLEST_SEPARATION: f64 = 1e-5;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LoopError {
     /// A settling time that is not a positive, finite number.
-    #[error("a settling time must be positive and finite, not {settling_time_s} s")]
+    #[error("a settling time must be positive and finite, got {settling_time_s} s")]
     BadSettlingTime {
         /// The settling time given, s.
         settling_time_s: f64,
     },
     /// A damping ratio that is not a positive, finite number.
-    #[error("a damping ratio must be positive and finite, not {damping}")]
+    #[error("a damping ratio must be positive and finite, got {damping}")]
     BadDamping {
         /// The damping ratio given.
         damping: f64,
     },
     /// A natural frequency, real pole or bandwidth that is not a positive, finite number.
-    #[error("a frequency must be positive and finite, not {frequency_rad_s} rad/s")]
+    #[error("a frequency must be positive and finite, got {frequency_rad_s} rad/s")]
     BadFrequency {
         /// The frequency given, rad/s.
         frequency_rad_s: f64,
     },
     /// A real pole over a natural frequency that is not positive and finite, or poles so far apart (or a
     /// damping so light) that the response has no practical settling time.
-    #[error("poles too far apart: real pole {pole_ratio} times the natural frequency, damping {damping}")]
+    #[error(
+        "the poles are too far apart: real pole {pole_ratio} times the natural frequency, damping {damping}"
+    )]
     BadPoleRatio {
         /// The ratio `p/ω_n` given.
         pole_ratio: f64,

@@ -32,13 +32,13 @@ pub struct Waypoint {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TrajectoryError {
     /// Less than two waypoints.
-    #[error("a trajectory needs at least 2 waypoints, not {count}")]
+    #[error("a trajectory needs at least 2 waypoints, got {count}")]
     TooFewWaypoints {
         /// How many there were.
         count: usize,
     },
     /// A waypoint not later than the one before.
-    #[error("waypoint {index} at {time_s} s must come later than the one before at {previous_s} s")]
+    #[error("waypoint {index} must be later than the one before, at {previous_s} s, got {time_s} s")]
     TimeNotIncreasing {
         /// Index of the waypoint, from 0.
         index: usize,

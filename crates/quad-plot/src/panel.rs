@@ -128,7 +128,7 @@ impl Panel {
         self
     }
 
-    /// Adds a thin dashed line at this ordinate; its label, if any, stands in the legend.
+    /// Adds a thin dashed line at this ordinate; its label, if any, is in the legend.
     pub fn horizontal(mut self, y: f64, label: impl Into<String>) -> Self {
         self.rules.push(Rule {
             value: y,
@@ -139,7 +139,7 @@ impl Panel {
         self
     }
 
-    /// Adds a thin dashed line at this abscissa; its label, if any, stands in the legend.
+    /// Adds a thin dashed line at this abscissa; its label, if any, is in the legend.
     pub fn vertical(mut self, x: f64, label: impl Into<String>) -> Self {
         self.rules.push(Rule {
             value: x,

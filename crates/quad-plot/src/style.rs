@@ -119,7 +119,7 @@ pub fn mix(from: &str, to: &str, share: f64) -> String {
     };
     let mixed = [1, 3, 5].map(|k| {
         let (a, b) = (channel(from, k), channel(to, k));
-        // A share that is no number becomes 0 here.
+        // A share that is not finite becomes 0 here.
         (a + (b - a) * share).round() as u8
     });
     format!("#{:02x}{:02x}{:02x}", mixed[0], mixed[1], mixed[2])

@@ -15,7 +15,7 @@ const ZERO_THRUST_OFFSET: f64 = 0.0098654;
 const THRUST_GAIN: f64 = 265.817;
 const TORQUE_GAIN: f64 = 4.3646;
 const BANDWIDTH: f64 = 14.4653;
-/// Zeroed commands before and after the step: hover and a tenth of a newton or so more.
+/// Commands u before and after the step: hover and a tenth of a newton or so more.
 const COMMANDS: [f64; 2] = [0.0130, 0.0160];
 /// Time step, s, of the integration, and the instants of the report, ms.
 const STEP_S: f64 = 1e-3;

@@ -11,7 +11,7 @@
 //! measures: aerodynamic torque and spin-up together, which is where its zero comes from. Source: thesis
 //! chapter 4.5.3 and tables 4.4 to 4.6 for the numbers of coefficients; the forms are this project's
 //! choice. Valid over the range of commands and voltages that the coefficients were fitted on; beyond
-//! its ends the polynomials go on as their tangents (kinks of the second derivative there), since a cubic soon
+//! its ends the polynomials continue as their tangents (kinks of the second derivative there), since a cubic soon
 //! turns round and would make a rotor pull down.
 
 use crate::{RotorInput, RotorModel, RotorOutput, SpinUp};
@@ -101,9 +101,9 @@ impl<R: Real> RotorDynamics<R> {
 /// The empirical linear rotor of level 4: gains behind transfer functions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearRotor<R: Real> {
-    /// Thrust gain `K_T`, N per unit of zeroed command.
+    /// Thrust gain `K_T`, N per unit of command u.
     pub thrust_gain: R,
-    /// Torque gain `K_Q`, N m per unit of zeroed command.
+    /// Torque gain `K_Q`, N m per unit of command u.
     pub torque_gain: R,
     /// The responses.
     pub dynamics: RotorDynamics<R>,

@@ -9,7 +9,7 @@
 //! | [`MechanisticRotor`] | `T = k_T Ω²`, `Q = k_Q Ω²` | motor equations in Ω | the 'truth' behind 4 and 5 |
 //!
 //! A rotor gives thrust `T` (N, along `−z_B`, positive up) and reaction torque `Q` (N m, positive against
-//! its spin). It is driven by the zeroed command `u = ū − ū_0` (duty) and the battery voltage.
+//! its spin). It is driven by the command `u = ū − ū_0`, the offset of the duty from zero thrust, and the battery voltage.
 //!
 //! ```
 //! use quad_rotor::{FirstOrderRotor, RotorInput, RotorModel, ThrustState};

@@ -6,7 +6,7 @@ use quad_math::{Flat, Real, State};
 /// What drives a rotor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorInput<R: Real> {
-    /// Zeroed command `u = ū − ū_0`, dimensionless duty.
+    /// Command `u = ū − ū_0`: offset of the duty from zero thrust.
     pub command: R,
     /// Battery voltage `V_b`, V; the models of levels 1 to 4 do not look at it.
     pub voltage: R,
@@ -49,7 +49,7 @@ pub trait RotorModel<R: Real>: Copy {
     /// The state at rest under a constant input.
     fn equilibrium(&self, input: &RotorInput<R>) -> Self::State;
 
-    /// The zeroed command that gives a steady thrust, N, at battery voltage, V.
+    /// The command u that gives a steady thrust, N, at battery voltage, V.
     fn command_for_thrust(&self, thrust: R, voltage: R) -> R;
 
     /// Rotor speed Ω, rad/s; by the static propeller law where the model has no speed of its own.

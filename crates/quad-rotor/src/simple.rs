@@ -11,9 +11,9 @@ use quad_math::{Flat, Rate, Real, State};
 /// The ideal rotor: `T = K_T u`, `Q = K_Q u`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IdealRotor<R: Real> {
-    /// Thrust gain `K_T`, N per unit of zeroed command.
+    /// Thrust gain `K_T`, N per unit of command u.
     pub thrust_gain: R,
-    /// Torque gain `K_Q`, N m per unit of zeroed command.
+    /// Torque gain `K_Q`, N m per unit of command u.
     pub torque_gain: R,
 }
 
@@ -52,7 +52,7 @@ impl<R: Real> RotorModel<R> for IdealRotor<R> {
 /// The first-order rotor: `Ṫ = ω_R (K_T u − T)`, `Q = (K_Q/K_T) T`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstOrderRotor<R: Real> {
-    /// Thrust gain `K_T`, N per unit of zeroed command.
+    /// Thrust gain `K_T`, N per unit of command u.
     pub thrust_gain: R,
     /// Torque per thrust `K_Q / K_T`, m.
     pub torque_per_thrust: R,

@@ -18,7 +18,7 @@ pub enum ScenarioError {
         /// What the parser says.
         message: String,
     },
-    /// A key that must be there is not.
+    /// A required key is missing.
     #[error("{place}: the key `{key}` is missing")]
     MissingKey {
         /// Where.
@@ -26,14 +26,14 @@ pub enum ScenarioError {
         /// The key.
         key: String,
     },
-    /// A key that nobody knows.
-    #[error("{place}: there is no key `{key}`; {expected}")]
+    /// An unknown key.
+    #[error("{place}: unknown key `{key}`; {expected}")]
     UnknownKey {
         /// Where.
         place: Place,
         /// The key.
         key: String,
-        /// The keys there are.
+        /// The keys that exist.
         expected: String,
     },
     /// A value that its key can't have.
@@ -47,7 +47,7 @@ pub enum ScenarioError {
         message: String,
     },
     /// A duration that the clock doesn't have.
-    #[error("duration_s = {duration_s:?}: the end must come after the start: {source}")]
+    #[error("`duration_s` = {duration_s:?}: {source}")]
     Duration {
         /// The duration, s.
         duration_s: f64,
@@ -56,8 +56,8 @@ pub enum ScenarioError {
     },
     /// A name that can't be part of a channel's.
     #[error(
-        "\"{name}\" can't be an agent's name: it must have 1 to 100 characters, none of them a dot, comma, quote, asterisk, line break, control or \
-         bidirectional character"
+        "an agent's name must have 1 to 100 characters, none of them a dot, comma, quote, asterisk, line break, control or bidirectional \
+         character, got \"{name}\""
     )]
     Name {
         /// The name.
@@ -65,15 +65,15 @@ pub enum ScenarioError {
     },
     /// A scenario's name that can't be printed.
     #[error(
-        "name = \"{name}\": it must have up to 100 characters, none of them a line break, control or bidirectional character"
+        "`name` must have up to 100 characters, none of them a line break, control or bidirectional character, got \"{name}\""
     )]
     Title {
         /// The name.
         name: String,
     },
-    /// A gimbal that is to start where it can't go.
+    /// A gimbal that would start outside its travel.
     #[error(
-        "{agent}: {key} = {value_deg:?} is outside the gimbal's travel, {from_deg:.1} to {to_deg:.1} degrees"
+        "{agent}: `{key}` must lie within the gimbal's travel, {from_deg:.1} to {to_deg:.1} degrees, got {value_deg:?}"
     )]
     Travel {
         /// The station.
@@ -89,14 +89,14 @@ pub enum ScenarioError {
     },
     /// A recording whose form is not known.
     #[error(
-        "output.path = \"{path}\" doesn't tell what to write: let it end in .csv, .parquet or .jsonl, or set output.format"
+        "`output.path` must end in .csv, .parquet or .jsonl unless `output.format` is set, got \"{path}\""
     )]
     Form {
         /// Where to record.
         path: String,
     },
-    /// A box without an inside.
-    #[error("stop.outside: from_m[{axis}] = {from} must be less than to_m[{axis}] = {to}")]
+    /// An empty box.
+    #[error("stop.outside: `from_m[{axis}]` must be less than `to_m[{axis}]`, got {from} and {to}")]
     EmptyBox {
         /// 0 north, 1 east, 2 down.
         axis: usize,
@@ -105,8 +105,8 @@ pub enum ScenarioError {
         /// The greatest, m.
         to: f64,
     },
-    /// A vehicle or station file that isn't there.
-    #[error("agent \"{agent}\" has {kind} \"{wanted}\", which is {reason}; known by name: {known}")]
+    /// A missing vehicle or station file.
+    #[error("agent \"{agent}\": {kind} \"{wanted}\" is {reason}; known by name: {known}")]
     NoFile {
         /// The agent.
         agent: String,
@@ -114,7 +114,7 @@ pub enum ScenarioError {
         kind: &'static str,
         /// What it asks for.
         wanted: String,
-        /// Why it can't be had.
+        /// Why it is not available.
         reason: String,
         /// Those that come with the project.
         known: String,
@@ -182,7 +182,7 @@ pub enum ScenarioError {
         source: EstimatorFault,
     },
     /// A list that must not be empty.
-    #[error("quadrotor \"{agent}\", {key}: give at least one")]
+    #[error("quadrotor \"{agent}\": `{key}` needs at least one entry, got none")]
     Empty {
         /// The agent.
         agent: String,
@@ -190,7 +190,7 @@ pub enum ScenarioError {
         key: &'static str,
     },
     /// A number outside what it may be.
-    #[error("{agent}: {key} = {value:?}: it must be {must}")]
+    #[error("{agent}: {key} must be {must}, got {value:?}")]
     Number {
         /// Whose, in words.
         agent: String,
@@ -201,9 +201,9 @@ pub enum ScenarioError {
         /// What it must be.
         must: &'static str,
     },
-    /// A follower whose start doesn't follow from anything.
+    /// A follower whose start is unknown.
     #[error(
-        "quadrotor \"{agent}\" follows \"{leader}\", from which no start follows: name an agent with a start, or give `start`"
+        "quadrotor \"{agent}\" follows \"{leader}\", which has no start: name an agent with a start, or give `start`"
     )]
     NoStart {
         /// The agent.
@@ -215,9 +215,9 @@ pub enum ScenarioError {
     #[error(transparent)]
     Key(#[from] KeyError),
     /// A cost of no station.
-    #[error("optimise.station: {}; the cost is that of a station of the scenario, which has {known}", match wanted {
-        Some(name) => format!("no station is called \"{name}\""),
-        None => "name one".to_owned(),
+    #[error("optimise.station: {}; the cost needs a station of the scenario; known: {known}", match wanted {
+        Some(name) => format!("unknown station \"{name}\""),
+        None => "no station given".to_owned(),
     })]
     NoStation {
         /// The name in the file, if there is one.
@@ -227,7 +227,7 @@ pub enum ScenarioError {
     },
     /// A cost of a station without a quadrotor.
     #[error(
-        "optimise.quadrotor: \"{quadrotor}\", which \"{station}\" is judged with, is no quadrotor of the scenario"
+        "optimise.quadrotor: unknown quadrotor \"{quadrotor}\"; name the one that carries the receiver of \"{station}\""
     )]
     NotJudged {
         /// The station.
@@ -243,14 +243,14 @@ pub enum ScenarioError {
         /// Why.
         source: Box<ProblemError>,
     },
-    /// A quadrotor that can't be.
+    /// A quadrotor that can't be built.
     #[error(transparent)]
     Quadrotor(#[from] QuadrotorError),
-    /// A simulation that can't be.
+    /// A simulation that can't be assembled.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
     /// A saved flight that is of another scenario.
-    #[error("the saved flight can't go on in this scenario: {0}")]
+    #[error("the saved flight can't be resumed in this scenario: {0}")]
     Snapshot(#[from] SnapshotError),
 }
 
@@ -266,23 +266,23 @@ impl From<ResumeError> for ScenarioError {
 /// What is wrong with an estimator's key.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum EstimatorFault {
-    /// A sensor that can't be.
+    /// A sensor with invalid settings.
     #[error(transparent)]
     Sensor(#[from] SensorError),
     /// A second sensor of a kind whose bias the filter estimates.
-    #[error("there is one already: the filter knows one bias of accelerometers and one of gyroscopes")]
+    #[error("given twice: the filter estimates one accelerometer bias and one gyroscope bias")]
     Twice,
-    /// A field about a sensor that does not feel it.
-    #[error("only a magnetometer feels the magnetic field: leave it out")]
+    /// A magnetic field given for a sensor that does not measure it.
+    #[error("only a magnetometer measures the magnetic field: remove it")]
     Field,
     /// An error that is not finite, or a standard deviation of one below zero.
-    #[error("it must be finite, and not negative where it is a standard deviation, not {value}")]
+    #[error("must be finite, and not negative if it is a standard deviation, got {value}")]
     Error {
         /// The number.
         value: f64,
     },
-    /// A filter that says to be certain.
-    #[error("a filter's standard deviation must be positive and finite, not {value}")]
+    /// A filter that claims to be certain.
+    #[error("a filter's standard deviation must be positive and finite, got {value}")]
     Deviation {
         /// The number.
         value: f64,
@@ -293,13 +293,13 @@ pub enum EstimatorFault {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum KeyError {
     /// A path without keys.
-    #[error("\"{path}\" is not a key: write it as in `quadrotor.alpha.level`")]
+    #[error("\"{path}\" is not a key: write, for example, `quadrotor.alpha.level`")]
     Empty {
         /// The path.
         path: String,
     },
     /// A list has no such entry.
-    #[error("`{path}`: there is no `{entry}` in `{list}`, which has {known}")]
+    #[error("`{path}`: no `{entry}` in `{list}`; available: {known}")]
     NoEntry {
         /// The path.
         path: String,
@@ -307,11 +307,11 @@ pub enum KeyError {
         entry: String,
         /// The list.
         list: String,
-        /// Entries that there are.
+        /// The entries that exist.
         known: String,
     },
     /// A key below something that has none.
-    #[error("`{path}`: `{value}` is a value and has no keys below it")]
+    #[error("`{path}`: `{value}` is a value, not a table")]
     NotATable {
         /// The path.
         path: String,
@@ -324,8 +324,8 @@ pub enum KeyError {
         /// Why.
         message: String,
     },
-    /// A key that isn't there.
-    #[error("`{path}`: there is no `{key}`")]
+    /// An unknown key.
+    #[error("`{path}`: unknown key `{key}`")]
     NoKey {
         /// The path.
         path: String,

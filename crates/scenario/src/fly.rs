@@ -57,7 +57,7 @@ pub struct Flown {
     pub ending: Ending,
     /// What happened, in order of time.
     pub events: Vec<Event>,
-    /// What may surprise.
+    /// Warnings for the user.
     pub notes: Vec<String>,
     /// Its metrics; empty if they were not [kept](Keep).
     pub metrics: Vec<Metric>,

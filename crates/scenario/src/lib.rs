@@ -1,4 +1,4 @@
-//! Scenario files: what flies, where, how, for how long, as TOML.
+//! Scenario files in TOML: what flies, where, how and for how long.
 //!
 //! ```
 //! use scenario::{End, Keep, Scenario};

@@ -63,7 +63,7 @@ fn text(
             agent: agent.to_owned(),
             kind,
             wanted: wanted.to_owned(),
-            reason: format!("neither known nor a file that can be read ({error})"),
+            reason: format!("neither a known name nor a readable file ({error})"),
             known: names.join(", "),
         }
     })
@@ -140,7 +140,7 @@ pub(crate) fn vehicle_file(
     if parameters.is_empty() {
         return read(&text, wanted.to_owned());
     }
-    // The file as it is must be sound first, so that an error in it is told with its line.
+    // The file itself must be sound first, so that an error in it is reported with its line.
     Vehicle::from_toml_str(&text, wanted).map_err(|source| refused(agent, source))?;
     let mut file: Table = toml::from_str(&text).unwrap_or_default();
     change(agent, &mut file, parameters, "")?;
@@ -180,7 +180,7 @@ fn change(agent: &str, file: &mut Table, parameters: &Table, above: &str) -> Res
             reason,
         };
         let known = || file.keys().cloned().collect::<Vec<_>>().join(", ");
-        let reason = format!("the vehicle file has no such key; it has {}", known());
+        let reason = format!("unknown key of the vehicle file; available: {}", known());
         match (file.get_mut(key), wanted) {
             (Some(Value::Table(sourced)), value) if sourced.contains_key("value") => {
                 sourced.insert("value".to_owned(), value.clone());
@@ -190,7 +190,9 @@ fn change(agent: &str, file: &mut Table, parameters: &Table, above: &str) -> Res
             (Some(Value::Table(below)), Value::Table(parameters)) => {
                 change(agent, below, parameters, &path)?;
             }
-            (Some(Value::Table(_)), _) => return Err(refuse("it is a table: set a key of it".to_owned())),
+            (Some(Value::Table(_)), _) => {
+                return Err(refuse("a table, not a number: set one of its keys".to_owned()));
+            }
             (Some(_), _) => return Err(refuse("only numbers with a source can be set".to_owned())),
             (None, _) => return Err(refuse(reason)),
         }

@@ -36,8 +36,8 @@ pub struct Metric {
 /// Why a flight has no metric of a name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MetricError {
-    /// There is none of that name.
-    #[error("unknown metric `{name}`; this flight has {known}")]
+    /// No metric has that name.
+    #[error("no such metric `{name}`; available: {known}")]
     Unknown {
         /// The name.
         name: String,

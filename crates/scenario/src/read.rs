@@ -98,7 +98,7 @@ fn refused(place: Place, path: &str, error: &toml::de::Error) -> ScenarioError {
         return ScenarioError::MissingKey { place, key };
     }
     if let Some((field, expected)) = quoted("unknown field `") {
-        // The path of an unknown key ends in the key itself, unless its table is told apart by a `kind`.
+        // The path of an unknown key ends in the key itself, unless its table is distinguished by a `kind`.
         let ends_in_it = path.rsplit('.').next() == Some(field);
         let key = if ends_in_it {
             path.to_owned()

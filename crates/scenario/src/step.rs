@@ -5,7 +5,7 @@ use quad_ndi::metrics::StepMetrics;
 /// Least change of a set point that counts as a step, m.
 const LEAST_STEP_M: f64 = 1e-3;
 
-/// Least rows of a response: the last 5 % of fewer are none.
+/// Smallest number of rows of a response: the last 5 % of fewer are empty.
 const LEAST_POINTS: usize = 20;
 
 /// The response of an axis since its set point changed last.

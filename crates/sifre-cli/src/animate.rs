@@ -12,13 +12,13 @@ use std::path::{Path, PathBuf};
 /// Arguments of `sifre animate`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// A scenario (.toml), which is flown, or a recording (.csv, .parquet, .jsonl).
+    /// Scenario (.toml), which is flown, or recording (.csv, .parquet, .jsonl).
     input: PathBuf,
-    /// The scenario that a recording is of, for the looks of its agents; guessed from the recording without it.
+    /// Scenario of the recording, for the looks of its agents [default: guessed from the recording].
     #[arg(long)]
     scenario: Option<PathBuf>,
-    /// The page; without it in this folder, with the name of the input. A name that ends in .mcap is a file for Foxglove and rerun instead
-    /// (in programs built with the feature `mcap`).
+    /// Write to this file [default: NAME.html in this folder]. A name that ends in .mcap writes a file for Foxglove and rerun instead
+    /// (if built with the feature `mcap`).
     #[arg(long, short)]
     out: Option<PathBuf>,
 }
@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         )?;
     } else {
         let viewer = if is_mcap { "Foxglove or rerun" } else { "a browser" };
-        report::say(format!("drawn: {}; open it in {viewer}\n", out.display()))?;
+        report::say(format!("written: {}; open it in {viewer}\n", out.display()))?;
     }
     Ok(exit)
 }
@@ -96,7 +96,7 @@ fn mcap(recording: &Recording, scene: &Scene) -> Result<Result<Vec<u8>, AnimateE
 #[cfg(not(feature = "mcap"))]
 fn mcap(_: &Recording, _: &Scene) -> Result<Result<Vec<u8>, AnimateError>, Failure> {
     Err(Failure::Usage(
-        "this program writes no MCAP files: build it with `--features mcap`".to_owned(),
+        "this build cannot write MCAP files: build it with `--features mcap`".to_owned(),
     ))
 }
 
@@ -104,7 +104,7 @@ fn recorded(path: &Path) -> Result<Recording, Failure> {
     let recovered = recorder::read(path)?;
     if let Some(damage) = &recovered.damage {
         report::complain(format!(
-            "note: {damage}; drawing the {} rows before it",
+            "note: {damage}; animating the {} rows before it",
             recovered.recording.len()
         ));
     }

@@ -91,7 +91,7 @@ pub(crate) fn check_outputs(inputs: &[PathBuf], outputs: &[PathBuf]) -> Result<(
     })
 }
 
-/// Writes a file as a whole: whenever the program ends, the old or the new one is complete.
+/// Writes a file atomically: whenever the program ends, the old or the new one is complete.
 pub(crate) fn replace(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
     output::replace(path, content).map_err(|source| Failure::Write {
         path: path.to_owned(),

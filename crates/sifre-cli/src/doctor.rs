@@ -70,9 +70,9 @@ pub(crate) fn run(json: bool) -> Result<Exit, Failure> {
             }
         }
         report::say(if sound {
-            "all is well\n"
+            "all checks passed\n"
         } else {
-            "something is not well\n"
+            "a check failed\n"
         })?;
     }
     Ok(if sound { Exit::Done } else { Exit::Early })
@@ -99,13 +99,16 @@ fn hover() -> Result<String, Box<dyn Error>> {
     let vehicle = Vehicle::qball_x4();
     let weight = vehicle.airframe.mass * vehicle.environment.gravity;
     let expected = weight / (4.0 * vehicle.linear_rotor.thrust_gain);
-    let alpha: &ModelQuadrotor = run.simulation.agent("alpha").ok_or("the agent is gone")?;
+    let alpha: &ModelQuadrotor = run
+        .simulation
+        .agent("alpha")
+        .ok_or("agent \"alpha\" is missing")?;
     let commands = alpha.input().commands;
     if commands
         .iter()
         .any(|duty| (duty / expected - 1.0).abs() > DUTY_TOLERANCE)
     {
-        return Err(format!("duty is {commands:?}, it should be {expected}").into());
+        return Err(format!("duty must be {expected}, got {commands:?}").into());
     }
     let rate = flown.ending.report.time_s / flown.wall_s;
     Ok(format!(
@@ -131,6 +134,6 @@ fn recordings() -> Result<String, Box<dyn Error>> {
     match rows? {
         // Every 20 ms from 0 to 0.5 s.
         26 => Ok(format!("26 rows in {}", std::env::temp_dir().display())),
-        other => Err(format!("{other} rows instead of 26").into()),
+        other => Err(format!("expected 26 rows, got {other}").into()),
     }
 }

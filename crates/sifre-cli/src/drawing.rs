@@ -32,7 +32,7 @@ pub(crate) fn is_png(path: &Path) -> Result<bool, Failure> {
         Some("png") => Ok(true),
         Some("svg") => Ok(false),
         _ => Err(Failure::Usage(format!(
-            "{}: a picture ends in .svg or .png",
+            "{}: a plot must end in .svg or .png",
             path.display()
         ))),
     }

@@ -54,7 +54,7 @@ impl From<End> for Exit {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     /// A file that can't be read.
-    #[error("{}: can't be read: {source}", path.display())]
+    #[error("{}: cannot be read: {source}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
@@ -62,7 +62,7 @@ pub(crate) enum Failure {
         source: std::io::Error,
     },
     /// A file that can't be written.
-    #[error("{}: can't be written: {source}", path.display())]
+    #[error("{}: cannot be written: {source}", path.display())]
     Write {
         /// The file.
         path: PathBuf,
@@ -73,7 +73,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Clash(#[from] output::Clash),
     /// A file that exists.
-    #[error("{}: exists; give another name, or --force to replace it", path.display())]
+    #[error("{}: already exists; choose another name or pass --force", path.display())]
     Exists {
         /// The file.
         path: PathBuf,
@@ -84,13 +84,13 @@ pub(crate) enum Failure {
     /// A metric that the flight doesn't have.
     #[error("--metric: {0}")]
     Metric(#[from] MetricError),
-    /// An argument that makes no sense.
+    /// An invalid argument.
     #[error("{0}")]
     Usage(String),
-    /// A flight that had to come to its end and did not.
+    /// A flight that had to finish and did not.
     #[error("{0}")]
     Flight(String),
-    /// A recording that can't be begun or finished.
+    /// A recording that can't be started or finished.
     #[error("{}: {source}", path.display())]
     Recording {
         /// The file.
@@ -101,7 +101,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// The exit code that tells of it.
+    /// The exit code for it.
     pub(crate) const fn exit(&self) -> Exit {
         match self {
             Self::Write { .. } => Exit::NotWritten,

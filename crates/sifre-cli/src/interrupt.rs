@@ -1,4 +1,4 @@
-//! Ctrl-C: the first asks the run to end, so that files are whole; the second ends the program at once.
+//! Ctrl-C: the first asks the run to end, so that files are complete; the second ends the program at once.
 
 use crate::exit::{Exit, Failure};
 use scenario::{Files, Flown, Keep, Scenario};
@@ -23,7 +23,7 @@ pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
-/// Whether a run is to go on.
+/// Whether a run should continue.
 pub(crate) fn flow() -> ControlFlow<()> {
     if asked() {
         ControlFlow::Break(())

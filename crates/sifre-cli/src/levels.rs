@@ -24,12 +24,12 @@ use std::path::PathBuf;
 /// Arguments of `sifre levels`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The scenario.
+    /// Scenario file.
     scenario: PathBuf,
-    /// The picture of the differences, .svg or .png.
+    /// Plot the differences to this file, .svg or .png.
     #[arg(long, short)]
     plot: Option<PathBuf>,
-    /// Keep the scenario's controllers at the levels that they may fly, instead of the inversion that belongs to each.
+    /// Keep the scenario's controllers where they can fly the level, instead of using the inversion of each level.
     #[arg(long)]
     keep_controllers: bool,
     /// Set a key of the scenario: `--set duration_s=5`. May be repeated.
@@ -165,7 +165,7 @@ impl Size {
         let squares: f64 = values.iter().map(|x| x * x).sum();
         Self {
             rms: (squares / values.len().max(1) as f64).sqrt(),
-            // What is no number must show, and `f64::max` hides it.
+            // A maximum that propagates NaN, which `f64::max` hides.
             largest: if squares.is_nan() {
                 f64::NAN
             } else {

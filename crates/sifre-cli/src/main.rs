@@ -1,5 +1,5 @@
 //! `sifre`: the command line of the simulation engine.
-// A stream that is closed makes those macros panic: `report::say`, `report::complain`.
+// Those macros panic on a closed stream; use `report::say` and `report::complain`.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod animate;
@@ -35,20 +35,20 @@ use std::process::ExitCode;
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    a flight ended early: diverged, below the ground, outside its box, target lost; or a check of `doctor` failed
+  1    a flight ended early (diverged, below the ground, outside its box, target lost), or a check of `doctor` failed
   2    bad usage or bad input: nothing was flown
   3    an output could not be written
-  130  interrupted (Ctrl-C); what was recorded until then is whole";
+  130  interrupted (Ctrl-C); recordings are complete up to that point";
 
-/// Flies scenarios: quadrotors at five levels of resolution, ground stations, targets.
+/// Simulate scenarios with quadrotors at five levels of resolution, ground stations and targets.
 ///
-/// A first flight: `sifre run scenarios/hover.toml`
+/// First flight: `sifre run scenarios/hover.toml`
 #[derive(Debug, Parser)]
 #[command(name = "sifre", version, after_help = EXIT_CODES, after_long_help = EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
     what: What,
-    /// Print one JSON value on standard output instead of text.
+    /// Print machine-readable output: one JSON value on standard output instead of text.
     #[arg(long, global = true)]
     json: bool,
 }
@@ -59,29 +59,29 @@ enum What {
     Run(run::Arguments),
     /// Fly a scenario at all five levels of resolution and compare them.
     Levels(levels::Arguments),
-    /// Which level of resolution is enough: the cheapest that agrees with level 5 on what you ask.
+    /// Find the cheapest level of resolution that agrees with level 5 on the chosen metric.
     SelectLevel(select_level::Arguments),
-    /// Which phenomenon makes the difference between neighbouring levels.
+    /// Attribute the difference between adjacent levels to single phenomena.
     Attribute(attribute::Arguments),
-    /// Find the values of a scenario's keys that cost least; an interrupted search goes on where it was.
+    /// Find the values of a scenario's keys that minimise the cost; an interrupted search can be resumed.
     Optimise(optimise::Arguments),
-    /// Fly a scenario many times with keys varied, on a grid or at random; an interrupted sweep goes on where it was.
+    /// Fly a scenario many times with keys varied on a grid or at random; an interrupted sweep resumes where it stopped.
     Sweep(sweep::Arguments),
-    /// What a flight's numbers are worth: the standard errors of the vehicle's file carried to every metric.
+    /// Propagate the vehicle file's standard errors to every metric.
     Uncertainty(uncertainty::Arguments),
-    /// Where motion-capture cameras go on the walls of a room, to see most of the volume that is flown in.
+    /// Place motion-capture cameras on the walls of a room so that they see most of the flight volume.
     Cameras(cameras::Arguments),
-    /// Draw a recording.
+    /// Plot a recording.
     Plot(plot::Arguments),
-    /// Draw a flight as a page that moves, for a browser.
+    /// Write an animated web page of a flight.
     Animate(animate::Arguments),
     /// Write a commented scenario to start from.
     New(new::Arguments),
-    /// Print the JSON schema of scenario files, for editors.
+    /// Print the JSON schema of scenario files for editors.
     Schema,
-    /// Check that everything works here.
+    /// Check that the installation works.
     Doctor,
-    /// Print a script that completes commands in a shell: `sifre completions bash > ~/.local/share/bash-completion/completions/sifre`.
+    /// Print a shell completion script: `sifre completions bash > ~/.local/share/bash-completion/completions/sifre`.
     Completions {
         /// The shell.
         shell: Shell,
@@ -129,7 +129,7 @@ fn usage(error: &clap::Error) -> ExitCode {
     .into()
 }
 
-/// Says what went wrong.
+/// Reports what went wrong.
 fn tell(failure: &Failure, json: bool) -> Exit {
     let exit = failure.exit();
     report::complain(format!("error: {failure}"));

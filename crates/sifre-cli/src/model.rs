@@ -39,11 +39,11 @@ pub(crate) fn at(
     scenario
 }
 
-/// Refuses a scenario without anything that has levels, and says what of it is left out where all levels are compared.
+/// Rejects a scenario without quadrotors, and reports what is ignored where all levels are compared.
 pub(crate) fn check(scenario: &Scenario) -> Result<(), Failure> {
     if scenario.quadrotor.is_empty() {
         return Err(Failure::Usage(
-            "there is no quadrotor in it: only quadrotors have levels".to_owned(),
+            "the scenario has no quadrotor: only quadrotors have levels".to_owned(),
         ));
     }
     for quadrotor in &scenario.quadrotor {
@@ -52,11 +52,11 @@ pub(crate) fn check(scenario: &Scenario) -> Result<(), Failure> {
             ("level_changes", !quadrotor.level_changes.is_empty()),
             ("level_rule", quadrotor.level_rule.is_some()),
             (
-                "wind.shear where there is no drag",
+                "wind.shear where the level has no drag",
                 quadrotor.wind.shear.is_some(),
             ),
             (
-                "wind.turbulence where there is no drag",
+                "wind.turbulence where the level has no drag",
                 quadrotor.wind.turbulence.is_some(),
             ),
         ];
@@ -67,7 +67,7 @@ pub(crate) fn check(scenario: &Scenario) -> Result<(), Failure> {
             .collect();
         if !named.is_empty() {
             crate::report::complain(format!(
-                "note: each level flies with its own phenomena throughout; \"{}\" goes without its {}",
+                "note: each level flies with its own phenomena throughout; for \"{}\" these are ignored: {}",
                 quadrotor.name,
                 named.join(", ")
             ));

@@ -16,12 +16,12 @@ pub(crate) fn known() -> impl Iterator<Item = (&'static str, &'static str)> {
 /// Arguments of `sifre new`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The file to write; on standard output without one.
+    /// File to write [default: standard output].
     file: Option<PathBuf>,
-    /// What to start from: `template` explains every key, the others are ready to fly.
+    /// Scenario to start from: `template` explains every key, the others are ready to fly.
     #[arg(long, default_value = "template", value_parser = clap::builder::PossibleValuesParser::new(known().map(|(name, _)| name)))]
     from: String,
-    /// Replace a file that is there already.
+    /// Replace an existing file.
     #[arg(long)]
     force: bool,
 }

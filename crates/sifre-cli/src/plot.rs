@@ -11,12 +11,12 @@ use std::path::PathBuf;
 /// Arguments of `sifre plot`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The recording: .csv, .parquet or .jsonl. What is whole of a damaged one is drawn.
+    /// Recording: .csv, .parquet or .jsonl. A damaged file is plotted up to its last complete row.
     recording: PathBuf,
-    /// The picture, .svg or .png; beside the recording without one.
+    /// Plot to this file, .svg or .png [default: beside the recording].
     #[arg(long, short)]
     out: Option<PathBuf>,
-    /// Draw only this agent; may be repeated.
+    /// Plot only this agent. May be repeated.
     #[arg(long = "agent", value_name = "NAME")]
     agents: Vec<String>,
 }
@@ -32,13 +32,13 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let recording = &recovered.recording;
     if let Some(damage) = &recovered.damage {
         report::complain(format!(
-            "note: {damage}; drawing the {} rows before it",
+            "note: {damage}; plotting the {} rows before it",
             recording.len()
         ));
     }
     if recording.is_empty() {
         return Err(Failure::Usage(format!(
-            "{}: there are no rows",
+            "{}: the recording has no rows",
             arguments.recording.display()
         )));
     }
@@ -50,7 +50,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     if columns.is_empty() {
         let path = arguments.recording.display();
         return Err(Failure::Usage(format!(
-            "{path}: it has no channels that are drawn"
+            "{path}: the recording has no channels that can be plotted"
         )));
     }
     drawing::write(&out, &figure(columns))?;
@@ -79,7 +79,7 @@ fn chosen(recording: &Recording, wanted: &[String]) -> Result<Vec<String>, Failu
     if let Some(missing) = wanted.iter().find(|name| !known.contains(name)) {
         let known = known.join(", ");
         return Err(Failure::Usage(format!(
-            "--agent {missing}: the recording has {known}"
+            "--agent: no agent {missing} in the recording; known: {known}"
         )));
     }
     known.retain(|name| wanted.is_empty() || wanted.contains(name));

@@ -40,19 +40,19 @@ pub(crate) fn attach(
     Ok(())
 }
 
-/// Whether a recording may take this place without being asked for it: nothing is there, or something empty, or a recording.
+/// Whether a recording may replace this file without --force: it is missing, empty, or a recording.
 pub(crate) fn may_be_replaced(path: &Path) -> bool {
     const BEGINNINGS: [&[u8]; 3] = [b"# {\"sifre_recording\"", b"{\"sifre_recording\"", b"PAR1"];
     let is_file = std::fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
     let Ok(file) = File::open(path) else {
-        return true; // What can't be opened is told where it is to be written.
+        return true; // A file that can't be opened is reported when it is written.
     };
     let mut begins = Vec::new();
     let read = file.take(64).read_to_end(&mut begins);
     !is_file || read.is_err() || begins.is_empty() || BEGINNINGS.iter().any(|b| begins.starts_with(b))
 }
 
-/// Reads what is whole of a recording.
+/// Reads the complete rows of a recording.
 pub(crate) fn read(path: &Path) -> Result<Recovered, Failure> {
     let file = File::open(path).map_err(|source| Failure::Read {
         path: path.to_owned(),

@@ -94,7 +94,7 @@ impl Report {
             text += &format!("recorded in {output}\n");
         }
         if let Some(saved) = &self.saved {
-            text += &format!("saved in {}, go on with --resume\n", saved.display());
+            text += &format!("saved in {}; continue with --resume\n", saved.display());
         }
         text
     }

@@ -15,26 +15,26 @@ use std::path::{Path, PathBuf};
 /// Arguments of `sifre run`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The scenario.
+    /// Scenario file.
     scenario: PathBuf,
-    /// Where to record, instead of where the scenario says; .csv, .parquet or .jsonl.
+    /// Record to this file (.csv, .parquet or .jsonl) [default: `output.path` of the scenario].
     #[arg(long, short)]
     out: Option<String>,
     /// Record nothing.
     #[arg(long, conflicts_with = "out")]
     no_output: bool,
-    /// Save the flight as it is when it ends, is stopped or interrupted, to go on with --resume.
+    /// Save the state of the flight when it ends or is interrupted, for --resume.
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
-    /// Go on from a saved flight, with a later `duration_s` if it had come to its end. Agents go on as they were: what the scenario says
-    /// of the start (positions, levels, pan and tilt) is not looked at. Records and sums up what is flown from there on; the
-    /// recording needs a name of its own.
+    /// Resume a saved flight; give a later `duration_s` if it had finished. Agents resume from their saved states, so the scenario's
+    /// start (positions, levels, pan and tilt) is ignored. The recording and the metrics cover the resumed part only; the
+    /// recording needs its own file name.
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
     /// Set a key of the scenario: `--set quadrotor.alpha.level=5`. May be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<Setting>,
-    /// No progress bar.
+    /// Show no progress bar.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -132,14 +132,14 @@ fn check_outputs(scenario: &Scenario, arguments: &Arguments) -> Result<(), Failu
     {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         return Err(Failure::Usage(format!(
-            "{}: exists and is no recording; the scenario's output.path would replace it: give --out to record elsewhere",
+            "{}: already exists and is not a recording; pass --out to record to another file",
             path.display()
         )));
     }
     Ok(())
 }
 
-/// Completes the recording; one that failed before has been told of.
+/// Completes the recording; an earlier failure has been reported.
 fn finish(run: &mut Run, path: Option<&str>, end: End) -> Result<(), Failure> {
     match (run.simulation.finish_recordings(), path) {
         (Err(source), Some(path)) if end != End::RecordingFailed => Err(Failure::Recording {

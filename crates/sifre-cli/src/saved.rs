@@ -1,4 +1,4 @@
-//! Flights saved to go on later: the engine's snapshots as files, each with check sums of what it was saved from.
+//! Saved flights, to be resumed later: the engine's saved simulations as files, with check sums of what they were saved from.
 //!
 //! ```text
 //! {"sifre_saved_flight":1, "check_sum":"…", "of":{"agents":"…", "files":{"drone.toml":"…"}}, "flight":{…}}
@@ -19,7 +19,7 @@ use std::path::Path;
 /// Version of the file.
 const FORMAT: u32 = 1;
 
-/// Most bytes of a file: some hundred thousand quadrotors.
+/// Largest file, bytes: some hundred thousand quadrotors.
 const LONGEST: u64 = 1 << 30;
 
 /// Keys of a scenario that may change.
@@ -85,14 +85,14 @@ impl Origin {
         })
     }
 
-    /// Why a flight that was saved from another can't go on in this one.
+    /// Why a flight that was saved from another scenario can't be resumed in this one.
     fn refuses(&self, other: &Self) -> Option<String> {
         let changed = |(name, sum): &(&String, &String)| other.files.get(*name).is_some_and(|s| s != *sum);
         if let Some((name, _)) = self.files.iter().find(changed) {
-            return Some(format!("{name} is not as it was when the flight was saved"));
+            return Some(format!("{name} has changed since the flight was saved"));
         }
         (self != other).then(|| {
-            "its agents or its seed are not those with which the flight was saved; only their starts, duration_s, stop and output may change".to_owned()
+            "its agents or its seed have changed since the flight was saved; only their starts, duration_s, stop and output may change".to_owned()
         })
     }
 }
@@ -106,7 +106,7 @@ impl Saved {
     }
 }
 
-/// The flight of a scenario, going on from a file.
+/// The flight of a scenario, resumed from a file.
 pub(crate) fn resume(built: Built, origin: &Origin, from: &Path) -> Result<Run, Failure> {
     let text = disk::read_up_to(from, LONGEST)?;
     let refuse = |why: String| Failure::Usage(format!("{}: not a saved flight: {why}", from.display()));
@@ -118,13 +118,11 @@ pub(crate) fn resume(built: Built, origin: &Origin, from: &Path) -> Result<Run, 
         )));
     }
     if saved.check_sum != saved.sum().map_err(|error| refuse(error.to_string()))? {
-        return Err(refuse(
-            "it was changed since it was written, its check sum differs".to_owned(),
-        ));
+        return Err(refuse("it is damaged (its check sum differs)".to_owned()));
     }
     if let Some(why) = origin.refuses(&saved.of) {
         return Err(Failure::Usage(format!(
-            "{}: the flight can't go on in this scenario: {why}",
+            "{}: the saved flight can't be resumed in this scenario: {why}",
             from.display()
         )));
     }
@@ -132,14 +130,14 @@ pub(crate) fn resume(built: Built, origin: &Origin, from: &Path) -> Result<Run, 
     let (now_s, end_s) = (run.simulation.now_s(), run.duration_s);
     if now_s >= end_s {
         return Err(Failure::Usage(format!(
-            "{} is at {now_s} s and the scenario ends at {end_s} s: set a later `duration_s`",
+            "{}: the saved time {now_s} s is not before the scenario's end, {end_s} s: set a later `duration_s`",
             from.display()
         )));
     }
     Ok(run)
 }
 
-/// What goes on otherwise than the scenario says that a flight begins.
+/// What continues otherwise than the scenario says that a flight begins.
 pub(crate) fn notes(run: &Run) -> Vec<String> {
     let differs = |agent: &AgentInfo| {
         let AgentKind::Quadrotor { level: said, .. } = agent.kind else {
@@ -148,7 +146,7 @@ pub(crate) fn notes(run: &Run) -> Vec<String> {
         let level = run.simulation.agent::<ModelQuadrotor>(&agent.name)?.level();
         (level != said).then(|| {
             format!(
-                "\"{}\" goes on at level {}, where it was; `level = {}` is that of the start (level_changes changes it on the way)",
+                "\"{}\" resumes at level {}, its saved level; `level = {}` applies to the start only (use level_changes to change it in flight)",
                 agent.name,
                 level.number(),
                 said.number()
@@ -158,9 +156,9 @@ pub(crate) fn notes(run: &Run) -> Vec<String> {
     run.agents.iter().filter_map(differs).collect()
 }
 
-/// Writes the flight as it is, complete at any time.
+/// Writes the flight as it is, atomically.
 pub(crate) fn save(run: &Run, of: Origin, to: &Path) -> Result<(), Failure> {
-    let refuse = |why: String| Failure::Flight(format!("{}: can't be saved: {why}", to.display()));
+    let refuse = |why: String| Failure::Flight(format!("{}: cannot be saved: {why}", to.display()));
     let flight = run.simulation.save().map_err(|error| refuse(error.to_string()))?;
     let mut saved = Saved {
         sifre_saved_flight: FORMAT,
@@ -173,11 +171,11 @@ pub(crate) fn save(run: &Run, of: Origin, to: &Path) -> Result<(), Failure> {
     disk::replace(to, text)
 }
 
-/// Refuses a recording that is there: the one of the flight so far must not be written over.
+/// Rejects an existing recording: the one of the flight so far must not be overwritten.
 pub(crate) fn leave_alone(recording: &Path) -> Result<(), Failure> {
     if recording.exists() {
         return Err(Failure::Usage(format!(
-            "{} is there already, perhaps from the flight so far: record what comes under another name with --out",
+            "{}: already exists, perhaps with the flight so far; record the resumed part to another file with --out",
             recording.display()
         )));
     }

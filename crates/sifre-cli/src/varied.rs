@@ -10,13 +10,13 @@ use toml::{Table, Value};
 
 /// Reads `key=value`.
 pub(crate) fn setting(text: &str) -> Result<Setting, String> {
-    let (key, value) = text
-        .split_once('=')
-        .ok_or_else(|| format!("\"{text}\": write key=value, as in quadrotor.alpha.level=5"))?;
+    let (key, value) = text.split_once('=').ok_or_else(|| {
+        format!("\"{text}\" is not an assignment: write key=value, for example quadrotor.alpha.level=5")
+    })?;
     Ok(Setting::new(key.trim(), value_of(value.trim())))
 }
 
-/// A value as TOML has it; a text without quotes where it is none.
+/// A value as TOML has it; otherwise a string without quotes.
 pub(crate) fn value_of(text: &str) -> Value {
     let table: Option<Table> = toml::from_str(&format!("value = {text}")).ok();
     table

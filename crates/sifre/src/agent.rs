@@ -180,16 +180,14 @@ impl Moment<'_> {
     }
 }
 
-/// Why what an agent would publish is not taken.
+/// Why an agent's state is rejected.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Invalid {
     /// A number of its state is NaN or infinite.
     #[error("its state became NaN or infinite")]
     NotFinite,
     /// It is faster than its model is valid.
-    #[error(
-        "it moves at {speed_m_s:.4e} m/s; its model is valid up to the speed of sound, {SPEED_OF_SOUND_M_S} m/s"
-    )]
+    #[error("its model is valid up to the speed of sound, {SPEED_OF_SOUND_M_S} m/s, got {speed_m_s:.4e} m/s")]
     TooFast {
         /// Its speed, m/s.
         speed_m_s: f64,
@@ -204,7 +202,7 @@ pub enum MemoryError {
     Format(#[from] serde_json::Error),
     /// Another number of numbers than the agent has.
     #[error(
-        "{what} has {expected} numbers, the saved state has {found}: was it saved with another model or controller?"
+        "{what} needs {expected} numbers, the saved state has {found}: was it saved with another model or controller?"
     )]
     Length {
         /// What the numbers are.
@@ -214,16 +212,16 @@ pub enum MemoryError {
         /// How many there are.
         found: usize,
     },
-    /// A number that no run leads to.
-    #[error("{what} has {value:?}, which no run leads to")]
+    /// A number that no run can produce.
+    #[error("{what} has {value:?}, which no run can produce")]
     Number {
         /// What the numbers are.
         what: &'static str,
         /// The number.
         value: f64,
     },
-    /// Four numbers that are no attitude.
-    #[error("its attitude is a quaternion of length {length}, not 1")]
+    /// Four numbers that are not an attitude.
+    #[error("the quaternion of its attitude must have length 1, got a quaternion of length {length}")]
     Attitude {
         /// The length.
         length: f64,
@@ -232,7 +230,7 @@ pub enum MemoryError {
     #[error(transparent)]
     Invalid(#[from] Invalid),
     /// A place in a list that the agent does not have.
-    #[error("it flies by entry {entry} of its levels, and the script has {count}")]
+    #[error("it uses entry {entry} of its levels, but the script has {count} entries")]
     Entry {
         /// The place, from 0.
         entry: usize,
@@ -240,9 +238,7 @@ pub enum MemoryError {
         count: usize,
     },
     /// Instants of an estimator that are no successive steps.
-    #[error(
-        "its estimator remembers {time_ns} ns after {before_ns} ns; instants are steps of {step_ns} ns apart"
-    )]
+    #[error("its estimator's instants must be {step_ns} ns apart, got {time_ns} ns after {before_ns} ns")]
     Instants {
         /// An instant, ns.
         time_ns: u64,
@@ -256,7 +252,7 @@ pub enum MemoryError {
     Build(#[from] quad_dynamics::BuildError),
     /// Only one of what was saved and of what is here has an estimator.
     #[error(
-        "one of the saved state and the agent has an estimator, the other has none: put the agent together as it was"
+        "either the saved state or the agent has an estimator, but not both: assemble the same agent as before"
     )]
     OneHasAnEstimator,
     /// Its estimator can't take up what it remembered.
@@ -332,7 +328,7 @@ pub trait Agent: Any + Debug + Send {
         Ok(())
     }
 
-    /// What probably made it diverge with this step, in words, if that can be told from how it is built.
+    /// What probably made it diverge with this step, if that follows from its settings.
     fn likely_cause(&self, _step: StepSize) -> Option<String> {
         None
     }
@@ -351,13 +347,13 @@ pub trait Agent: Any + Debug + Send {
         event
     }
 
-    /// What it records: states, inputs, outputs, references. The same for its whole life.
+    /// What it records: states, inputs, outputs, references. The same throughout the run.
     fn channels(&self) -> Vec<Channel>;
 
     /// Writes one number per channel: the state at its latest instant, and what was decided there.
     fn record(&self, row: &mut [f64]);
 
-    /// All it needs to go on later as if nothing had happened.
+    /// Everything it needs to resume later as if nothing had happened.
     ///
     /// # Errors
     /// If the state can't be written as JSON.

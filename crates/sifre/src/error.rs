@@ -3,15 +3,15 @@
 use crate::agent::MemoryError;
 use quad_math::GridError;
 
-/// An agent looks at another that isn't there.
+/// An agent refers to another that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("agent \"{agent}\" looks at \"{wanted}\", which {}", suggestion(.wanted, .agent, .known))]
+#[error("agent \"{agent}\" refers to \"{wanted}\", which {}", suggestion(.wanted, .agent, .known))]
 pub struct UnknownAgent {
-    /// The agent that looks.
+    /// The agent that refers.
     pub agent: String,
-    /// The name it looks for.
+    /// The name it refers to.
     pub wanted: String,
-    /// The agents there are besides it.
+    /// The other agents.
     pub known: Vec<String>,
 }
 
@@ -22,20 +22,20 @@ fn suggestion(wanted: &str, agent: &str, known: &[String]) -> String {
         "is not in the simulation"
     };
     if known.is_empty() {
-        format!("{what}: there are no others; add the agent")
+        format!("{what}: it has no other agents; add it")
     } else {
-        format!("{what}: add the agent or name one of {}", known.join(", "))
+        format!("{what}: add it, or name one of {}", known.join(", "))
     }
 }
 
 /// Why an agent can't take its place in a simulation.
 #[derive(Debug, thiserror::Error)]
 pub enum BindError {
-    /// It looks at an agent that isn't there.
+    /// It refers to an agent that does not exist.
     #[error(transparent)]
     UnknownAgent(#[from] UnknownAgent),
     /// It can't have the step that it was given.
-    #[error("agent \"{agent}\" can't have a step of {step_s} s: {source}")]
+    #[error("agent \"{agent}\" can't run at a step of {step_s} s: {source}")]
     Step {
         /// The agent.
         agent: String,
@@ -53,7 +53,7 @@ pub enum SimulationError {
     #[error("a simulation needs at least one agent: add a quadrotor, a target or an agent of your own")]
     Empty,
     /// Two agents of one name.
-    #[error("two agents are called \"{name}\": give each its own name")]
+    #[error("two agents are named \"{name}\": give each its own name")]
     DuplicateName {
         /// The name.
         name: String,
@@ -71,7 +71,7 @@ pub enum SimulationError {
         name: String,
     },
     /// An end before the present.
-    #[error("the run is to end at {end_s} s, but the simulation is at {now_s} s already: give a later end")]
+    #[error("the end of the run must be later than now, {now_s} s, got {end_s} s")]
     EndBeforeNow {
         /// The end asked for, s.
         end_s: f64,
@@ -79,7 +79,7 @@ pub enum SimulationError {
         now_s: f64,
     },
     /// A stop condition on an agent that isn't there.
-    #[error("a stop condition is on agent \"{wanted}\", which is not in the simulation: name one of {}", .known.join(", "))]
+    #[error("a stop condition names the unknown agent \"{wanted}\"; known: {}", .known.join(", "))]
     UnknownInCondition {
         /// The name.
         wanted: String,
@@ -108,10 +108,10 @@ pub enum SimulationError {
 #[derive(Debug, thiserror::Error)]
 pub enum SnapshotError {
     /// It is no snapshot, or can't be written as one.
-    #[error("not a snapshot of a simulation: {0}")]
+    #[error("not a saved simulation: {0}")]
     Format(#[from] serde_json::Error),
     /// A snapshot of another version of the format.
-    #[error("the snapshot has format {found}, this version reads format {expected}")]
+    #[error("the saved simulation has format {found}, this version reads format {expected}")]
     Version {
         /// The format read.
         expected: u32,
@@ -119,14 +119,14 @@ pub enum SnapshotError {
         found: u32,
     },
     /// A time beyond the clock.
-    #[error("the snapshot's time {time_ns} ns is beyond the clock's end at 2^50 ns")]
+    #[error("the saved time must be below the clock's end at 2^50 ns, got {time_ns} ns")]
     Time {
         /// The time, ns.
         time_ns: u64,
     },
     /// The snapshot has other agents than the simulation.
     #[error(
-        "the snapshot has agents {}, the simulation has {}: put the simulation together as it was",
+        "the saved simulation has agents {}, this one has {}: assemble the same agents as before",
         .snapshot.join(", "), .simulation.join(", ")
     )]
     OtherAgents {
@@ -136,7 +136,7 @@ pub enum SnapshotError {
         simulation: Vec<String>,
     },
     /// An agent of another kind.
-    #[error("agent \"{agent}\" is a {found} in the snapshot and a {expected} here")]
+    #[error("agent \"{agent}\" is a {found} in the saved simulation and a {expected} here")]
     OtherKind {
         /// The agent.
         agent: String,
@@ -146,7 +146,7 @@ pub enum SnapshotError {
         found: String,
     },
     /// An agent with another step.
-    #[error("agent \"{agent}\" has a step of {found_s} s in the snapshot and of {expected_s} s here")]
+    #[error("agent \"{agent}\" has a step of {found_s} s in the saved simulation and of {expected_s} s here")]
     OtherStep {
         /// The agent.
         agent: String,
@@ -156,7 +156,7 @@ pub enum SnapshotError {
         found_s: f64,
     },
     /// What an agent published or recorded has the wrong number of numbers.
-    #[error("agent \"{agent}\" has {found} numbers in the snapshot where {expected} belong")]
+    #[error("agent \"{agent}\" has {found} numbers in the saved simulation, expected {expected}")]
     Length {
         /// The agent.
         agent: String,
@@ -167,7 +167,7 @@ pub enum SnapshotError {
     },
     /// Something that happened to nobody, or after the present.
     #[error(
-        "something happened to \"{agent}\" at {time_ns} ns, which is no agent or later than the snapshot"
+        "an event names \"{agent}\" at {time_ns} ns, which is not an agent or is later than the saved time"
     )]
     Event {
         /// The agent.

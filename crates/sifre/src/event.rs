@@ -8,7 +8,7 @@ use std::borrow::Cow;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "event")]
 pub enum AgentEvent {
-    /// A quadrotor goes on at another level of resolution.
+    /// A quadrotor continues at another level of resolution.
     LevelChanged {
         /// The level until now.
         from: Level,

@@ -16,7 +16,7 @@ impl PartialEq for Exact {
 
 impl Eq for Exact {}
 
-/// What stands in the file.
+/// What is in the file.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Written {

@@ -1,4 +1,4 @@
-//! The simulation engine: agents on one exact clock, recorded, stopped, saved and resumed.
+//! The simulation framework for robotic engineering: agents on one exact clock, recorded, stopped, saved and resumed.
 //!
 //! ```
 //! use quad_dynamics::{Level, Vehicle};
@@ -30,7 +30,7 @@
 //! let z = recording.column("alpha.position.z").expect("every quadrotor has it").last();
 //! assert!((z.unwrap_or(0.0) + 1.0).abs() < 1e-3);
 //!
-//! // At rest it is a JSON file, and goes on from there bit for bit.
+//! // Saved to JSON, it resumes bit for bit.
 //! let mut file = Vec::new();
 //! simulation.save()?.write_json(&mut file)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -50,9 +50,9 @@
 //! | [`Ets`]: `Agent` | [`GimballedEts`]: camera, tracker and gimbal; [`IdealEts`]: exact pointing, as the bound |
 //! | [`Optimiser`] | those of [`optim`]: simplex, line search, annealing, evolution, random search |
 //!
-//! A [`ModelQuadrotor`] is flown by a [`Pilot`](quadrotor::Pilot) (any controller, or [`OpenLoop`](quadrotor::OpenLoop)) and asked
-//! by [`Guidance`] ([`Mission`], [`Follow`], [`Facing`], a fixed reference). It may carry an [`Estimation`](quadrotor::Estimation),
-//! in the loop or beside it.
+//! A [`ModelQuadrotor`] is flown by a [`Pilot`](quadrotor::Pilot) (any controller, or [`OpenLoop`](quadrotor::OpenLoop)) along the
+//! reference of a [`Guidance`] ([`Mission`], [`Follow`], [`Facing`], a fixed reference). It may carry an
+//! [`Estimation`](quadrotor::Estimation), in the loop or beside it.
 //!
 //! # Time
 //!
@@ -65,20 +65,20 @@
 //!
 //! # Ends
 //!
-//! [`Engine::run`] ends at its time, at a [`StopCondition`], where an agent's numbers stop being numbers, where an
-//! estimator's filter refuses to go on, where the [`Observer`] asks for it (Ctrl-C), or where a black box fails: each is a [`RunStatus`] and loses nothing. The
-//! simulation can go on from there, or be saved ([`Engine::save`]) and resumed elsewhere
-//! ([`Engine::resume`]) as if nothing had been.
+//! [`Engine::run`] ends at its time, at a [`StopCondition`], at an agent's first non-finite value, where an estimator's filter
+//! refuses to continue, where the [`Observer`] asks for it (Ctrl-C), or where a black box fails: each is a [`RunStatus`] and loses
+//! nothing. The simulation can continue from there, or be saved ([`Engine::save`]) and resumed elsewhere ([`Engine::resume`]) as if
+//! nothing had happened.
 //!
 //! # What it does not do
 //!
-//! It reads no scenario files and has no command line. Agents do not collide. A snapshot holds states, not how the agents
-//! were put together: resuming is given the same agents anew. The engine is `f64`; batches of other scalars call
+//! It reads no scenario files and has no command line. Agents do not collide. A saved simulation holds states, not how the agents
+//! were assembled: to resume, pass the same agents again. The engine is `f64`; batches of other scalars call
 //! the physics' pure steps, which are what the agents call.
 //!
 //! # Features
 //!
-//! `parquet` (on by default): [`ParquetBox`](black_box), by way of the `parquet` crate without Arrow.
+//! `parquet` (on by default): [`ParquetBox`](black_box), with the crate `parquet` without Arrow.
 
 mod agent;
 pub mod black_box;

@@ -48,7 +48,7 @@ pub enum ScheduleError {
         source: GridError,
     },
     /// An entry not later than the one before.
-    #[error("entry {index} of the schedule is from {from_s} s on: it must come later than the one before")]
+    #[error("entry {index} of the schedule must start later than the one before, got {from_s} s")]
     NotLater {
         /// The entry, from 1.
         index: usize,
@@ -56,7 +56,7 @@ pub enum ScheduleError {
         from_s: f64,
     },
     /// A number that is NaN or infinite.
-    #[error("entry {index} of the schedule has a number that is not finite")]
+    #[error("entry {index} of the schedule contains a non-finite number")]
     NotFinite {
         /// The entry, from 1.
         index: usize,

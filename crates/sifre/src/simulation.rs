@@ -30,7 +30,7 @@ pub trait Simulation {
     /// All channels in the order of a row, each with its agent's name before its own.
     fn channels(&self) -> Vec<Channel>;
 
-    /// Attaches a black box that records all channels at the whole multiples of a step, from now on.
+    /// Attaches a black box that records all channels at multiples of a step, from now on.
     ///
     /// # Errors
     /// If it can't be opened or can't begin at the present.

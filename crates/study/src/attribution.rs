@@ -93,7 +93,7 @@ pub enum AttributionError<E> {
     },
     /// More parts than can be measured in all combinations.
     #[error(
-        "{found} parts have 2^{found} combinations: attribute to {MOST_PARTS} at most, by models that are closer together"
+        "an attribution is to at most {MOST_PARTS} parts (2^parts runs), got {found}: compare models that are closer together"
     )]
     TooManyParts {
         /// How many there are.
@@ -234,7 +234,7 @@ impl Attribution {
         self.shares.iter().find(|share| share.part == part)
     }
 
-    /// The whole difference, top − base.
+    /// The total difference, top − base.
     pub fn difference(&self) -> f64 {
         self.top - self.base
     }

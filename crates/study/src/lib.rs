@@ -1,12 +1,12 @@
-//! Questions about the levels of the model family, and about the numbers of a vehicle.
+//! Studies of the model family: which level is enough, what separates two levels, what a vehicle's standard errors do to a result.
 //!
 //! | you want to know | use | from |
 //! | --- | --- | --- |
-//! | which level is enough for what you ask | [`selection::select`] | one answer per level, and its price |
+//! | which level is enough for your metric | [`selection::select`] | one answer per level, and its price |
 //! | which phenomenon makes the difference between two levels | [`attribution::Parts::attribute`] | a closure that flies a level with phenomena |
-//! | how far the vehicle's standard errors carry into a result | [`sensitivity::by_differentiation`], [`sensitivity::by_differences`] | a closure from vehicle to results |
+//! | what the vehicle's standard errors do to a result | [`sensitivity::by_differentiation`], [`sensitivity::by_differences`] | a closure from vehicle to results |
 //!
-//! Each takes a closure or numbers, so what is asked is yours: a step metric, an error on a trajectory, a cost. Everything is pure.
+//! Each takes a closure or numbers, so the metric is your choice: a step metric, an error on a trajectory, a cost. Everything is pure.
 //!
 //! ```
 //! use nalgebra::Vector3;

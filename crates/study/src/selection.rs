@@ -68,15 +68,18 @@ pub struct Selection {
 pub enum SelectionError {
     /// Nothing to agree with.
     #[error(
-        "{} is not among the answers: it is what the others are compared with",
+        "{} is missing from the answers: the others are compared with it",
         Level::HIGHEST
     )]
     NoReference,
     /// Nothing asked.
-    #[error("{} answered with no numbers: ask at least one", Level::HIGHEST)]
+    #[error("{} answered with no numbers: at least one is needed", Level::HIGHEST)]
     NothingAsked,
     /// Level 5 gave NaN or an infinite number.
-    #[error("{} must answer finite numbers, got {value} in case {case}", Level::HIGHEST)]
+    #[error(
+        "{} must answer with finite numbers, got {value} in case {case}",
+        Level::HIGHEST
+    )]
     BadReference {
         /// The case, from 0.
         case: usize,
@@ -91,7 +94,7 @@ pub enum SelectionError {
     },
     /// A level that was asked something else.
     #[error(
-        "{level} must answer {expected} numbers as {} does, got {values}",
+        "{level} must answer with {expected} numbers as {} does, got {values}",
         Level::HIGHEST
     )]
     OtherCases {
@@ -296,7 +299,7 @@ mod tests {
     fn exact_bad_input() {
         let good = answers([1.0; 5], [1.0; 5]);
         let told = |answers: &[Answer], tolerance| select(answers, tolerance).unwrap_err().to_string();
-        assert!(told(&good[..4], WITHIN_A_TENTH).contains("level 5 is not among"));
+        assert!(told(&good[..4], WITHIN_A_TENTH).contains("level 5 is missing"));
         assert!(told(&good, Tolerance::default()).contains("not both zero"));
         assert!(
             told(

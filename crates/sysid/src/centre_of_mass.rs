@@ -18,7 +18,7 @@
 //! of the distances are independent from placing to placing and about equal. So the airframe is placed anew for each
 //! repetition and its support points are measured anew; an error that never changes (an origin of the airframe axes
 //! that is off) is in no interval. With one placing in each of two orientations the method works, but one degree of
-//! freedom is left, and the interval says so.
+//! freedom is left, and the interval shows it.
 //!
 //! Source: thesis, section 4.3 (method); the equations are elementary statics.
 
@@ -208,7 +208,7 @@ impl CentreOfMass {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CentreOfMassError {
     /// A number is NaN or infinite.
-    #[error("placing {index} (counted from 0) holds a number that is not finite")]
+    #[error("placing {index} (counted from 0) contains a non-finite number")]
     NotFinite {
         /// Place in the order of the data.
         index: usize,
@@ -236,7 +236,7 @@ pub enum CentreOfMassError {
     },
     /// A weight that no vehicle of this kind has.
     #[error(
-        "placing {index}: forces add up to {weight_n} N; are they in newtons, and was the airframe on all three supports?"
+        "placing {index}: the forces sum to {weight_n} N; are they in newtons, and was the airframe on all three supports?"
     )]
     Weight {
         /// Place in the order of the data.
@@ -246,7 +246,7 @@ pub enum CentreOfMassError {
     },
     /// The supports lie in a row and span no plane.
     #[error(
-        "placing {index}: the supports lie nearly in a row (sine of the angle at the first {sine:.4}): spread them"
+        "placing {index}: the supports are nearly collinear (sine of the angle at the first {sine:.4}): spread them"
     )]
     InARow {
         /// Place in the order of the data.
@@ -256,7 +256,7 @@ pub enum CentreOfMassError {
     },
     /// One orientation gives a line, not a point.
     #[error(
-        "{orientations} orientation gives a line, not a point: stand the airframe on other points as well"
+        "the centre of mass needs at least two orientations, got {orientations}: support the airframe at other points as well"
     )]
     TooFewOrientations {
         /// How many different ones there are.

@@ -223,9 +223,9 @@ pub struct Convergence {
 /// Something that makes an estimate less trustworthy than its interval says.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Warning {
-    /// Two or more parameters are hardly told apart by the data.
+    /// Two or more parameters are hardly distinguished by the data.
     #[error(
-        "the data hardly tell the parameters apart (condition number {condition_number:.1e}): their intervals are wide and \
+        "the data hardly distinguish the parameters (condition number {condition_number:.1e}): their intervals are wide and \
          correlated"
     )]
     IllConditioned {
@@ -245,7 +245,7 @@ pub enum Warning {
     },
     /// The residuals are correlated, and the intervals have been widened for it.
     #[error(
-        "the residuals are correlated: intervals hold for correlation over {lags} data, up to {factor:.1} times wider"
+        "the residuals are correlated: the intervals allow for correlation over {lags} data points, up to {factor:.1} times wider"
     )]
     IntervalsWidened {
         /// Data over which correlation was taken into account.
@@ -254,13 +254,13 @@ pub enum Warning {
         factor: f64,
     },
     /// The iteration stopped before a minimum was found.
-    #[error("the fit did not converge within {evaluations} evaluations: the numbers are the best found")]
+    #[error("the fit did not converge within {evaluations} evaluations: these are the best values found")]
     NotConverged {
         /// Evaluations of the residuals.
         evaluations: usize,
     },
     /// A sensor sat at the end of its range.
-    #[error("{samples} samples sit at the end of the sensor's range ({limit}): they pull the fit")]
+    #[error("{samples} samples are at the end of the sensor's range ({limit}): they bias the fit")]
     Saturated {
         /// How many.
         samples: usize,
@@ -268,7 +268,7 @@ pub enum Warning {
         limit: f64,
     },
     /// Samples are missing.
-    #[error("{gaps} gaps in time, the longest {longest_s} s: they are bridged by holding the input")]
+    #[error("{gaps} gaps in time, the longest {longest_s} s: the input is held across them")]
     Gaps {
         /// How many.
         gaps: usize,
@@ -297,7 +297,7 @@ pub enum Warning {
     },
     /// The points scatter more, or less, than their stated standard deviations say.
     #[error(
-        "the scatter is not that of the stated standard deviations (chi-squared p = {p_value:.1e}): doubt one of them"
+        "the scatter disagrees with the stated standard deviations (chi-squared p = {p_value:.1e}): check them"
     )]
     ScatterUnlikeStated {
         /// Probability of a χ² at least as large.
@@ -335,20 +335,20 @@ pub enum Warning {
         relative_departure: f64,
     },
     /// Few periods of an oscillation were recorded.
-    #[error("only {periods} periods were recorded: damping and period are hardly told apart")]
+    #[error("only {periods} periods were recorded: damping and period are hardly distinguished")]
     FewPeriods {
         /// How many, in halves.
         periods: f64,
     },
     /// Samples are missing from a record without input.
-    #[error("{gaps} gaps in time, the longest {longest_s} s: the model runs through them on its own")]
+    #[error("{gaps} gaps in time, the longest {longest_s} s: the model bridges them without data")]
     MissingSamples {
         /// How many.
         gaps: usize,
         /// The longest, s.
         longest_s: f64,
     },
-    /// A line that is none.
+    /// A line that is bent.
     #[error(
         "the samples bend: they depart from a straight line by {:.2} % of the span, more than their scatter explains",
         100.0 * departure

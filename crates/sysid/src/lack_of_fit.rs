@@ -37,7 +37,7 @@ pub struct LackOfFit {
 const ROUNDING: f64 = 1e-9;
 
 impl LackOfFit {
-    /// Tests residuals whose groups are told by equal keys; `None` without repetitions, without more groups than
+    /// Tests residuals in groups with equal keys; `None` without repetitions, without more groups than
     /// parameters, or without any scatter but rounding.
     pub fn test<K: PartialEq>(residuals: &[f64], keys: &[K], parameters: usize) -> Option<Self> {
         let mut groups: Vec<(&K, Vec<f64>)> = Vec::new();

@@ -1,8 +1,8 @@
 //! System identification of a quadrotor: measurements in, parameters with their uncertainty out.
 //!
-//! Every identification answers with [`Estimate`]s (value, standard error, degrees of freedom; a 95 % interval by Student's t), with
-//! residuals and [`Goodness`], and with [`Warning`]s that say where an interval can't be trusted. Bad data are refused by an
-//! error that names the line or the sample. An interval speaks of noise; what a model misses is announced, not covered.
+//! Every identification returns [`Estimate`]s (value, standard error, degrees of freedom; a 95 % interval by Student's t), with
+//! residuals and [`Goodness`], and with [`Warning`]s that say where an interval can't be trusted. Bad data are rejected with an
+//! error that names the line or the sample. An interval covers noise only; what a model misses is a warning.
 //!
 //! | module | identifies, or holds | method |
 //! | --- | --- | --- |
@@ -18,7 +18,7 @@
 //! | [`recorded`] | public data sets in the project's frames and units | |
 //! | [`laboratory`] | virtual measurements of a vehicle whose numbers are known | sensors with noise, bias, quantisation, sampling |
 //! | [`regression`], [`lack_of_fit`], [`residual`] | least squares (linear, non-linear, total), tests of what is left | singular values, Levenberg-Marquardt |
-//! | [`estimate`] | what all of them answer | |
+//! | [`estimate`] | the result of all of them | |
 //!
 //! The program `identify` has a command for each bench and for flights; it reads files, which nothing here does.
 //!
@@ -53,7 +53,7 @@
 //! let gains = linear_gains(&samples)?;
 //! println!("K_T = {:.1} ± {:.1} N", gains.thrust_gain.value, gains.thrust_gain.half_width());
 //! println!("u_0 = {:.4} ± {:.4}", gains.zero_thrust.value, gains.zero_thrust.half_width());
-//! // The rotor's curve is no line, and the fit says so.
+//! // The rotor's curve is not a line, and the fit reports it.
 //! assert!(gains.warnings().count() > 0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -153,14 +153,16 @@ pub struct FoundLoad {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LoadCellError {
     /// Too few different loads for a line and a test of it.
-    #[error("{loads} different loads: at least 3 are needed to tell a line from a curve, better 5")]
+    #[error(
+        "a calibration needs at least 3 different loads (better 5) to distinguish a line from a curve, got {loads}"
+    )]
     TooFewLoads {
         /// How many there are.
         loads: usize,
     },
     /// A load beyond the cell.
     #[error(
-        "sample {index} (counted from 0): a load of {load} is beyond the cell's {capacity}; is it in grams?"
+        "sample {index} (counted from 0): the load must be within the cell's capacity, {capacity}, got {load}; is it in grams?"
     )]
     Overload {
         /// Place in the order of the data.
@@ -172,7 +174,7 @@ pub enum LoadCellError {
     },
     /// The cell hardly answers.
     #[error(
-        "the readings do not follow the load: a sensitivity of {sensitivity} ± {half_width} V per unit can't be told from zero; is \
+        "the readings do not follow the load: a sensitivity of {sensitivity} ± {half_width} V per unit is not distinct from zero; is \
          the cell connected?"
     )]
     NoResponse {
@@ -182,10 +184,10 @@ pub enum LoadCellError {
         half_width: f64,
     },
     /// No reading, or one that is not finite.
-    #[error("a load needs at least one reading, and finite ones")]
+    #[error("a load needs at least one reading, and finite readings only")]
     NoReading,
-    /// A capacity that is none.
-    #[error("a cell's capacity must be positive and finite, not {capacity}")]
+    /// An invalid capacity.
+    #[error("a cell's capacity must be positive and finite, got {capacity}")]
     Capacity {
         /// The value given, N or N m.
         capacity: f64,

@@ -52,7 +52,7 @@ pub struct Condition {
 /// A name that is none of the boundary conditions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "unknown decision variable \"{name}\": it must be axis, derivative, end and unit, one of {}",
+    "unknown decision variable \"{name}\"; names are made of axis, derivative, end and unit, one of {}",
     Condition::all().map(|c| c.key()).collect::<Vec<_>>().join(", ")
 )]
 pub struct UnknownCondition {

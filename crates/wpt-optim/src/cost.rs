@@ -286,7 +286,7 @@ impl<R: Real> Cost<R> {
         (0..7).fold(R::zero(), |sum, i| sum + self.weights[i] * terms[i])
     }
 
-    /// Geometry and terms at an instant; `commands` are the rotors' zeroed commands in force.
+    /// Geometry and terms at an instant; `commands` are the rotors' commands u in force.
     #[inline(always)]
     pub(crate) fn glance(
         &self,

@@ -14,8 +14,8 @@ pub enum ProblemError {
     /// Variables: none, one twice, bounds that enclose nothing, a start outside of them.
     #[error(transparent)]
     Variables(#[from] SetupError),
-    /// A boundary condition of the mission that is no number.
-    #[error("boundary condition {condition} = {value}: it must be finite")]
+    /// A boundary condition of the mission that is not finite.
+    #[error("boundary condition {condition} must be finite, got {value}")]
     BoundaryNotFinite {
         /// Which.
         condition: Condition,
@@ -23,7 +23,7 @@ pub enum ProblemError {
         value: f64,
     },
     /// A weight or limit that can't be.
-    #[error("{key} = {value}: it must be finite and {}", if *.positive { "positive" } else { "not negative" })]
+    #[error("{key} must be finite and {}, got {value}", if *.positive { "positive" } else { "not negative" })]
     BadNumber {
         /// Which, as in `weights.range`.
         key: &'static str,
@@ -34,7 +34,7 @@ pub enum ProblemError {
     },
     /// A weight so great that flying badly would cost more than not flying.
     #[error(
-        "{key} = {value}: weights up to {HEAVIEST} are allowed; scale all of them, since they count relative to each other"
+        "{key} must be at most {HEAVIEST}, got {value}: scale all weights, since only their ratios count"
     )]
     TooHeavy {
         /// Which, as in `weights.range`.
@@ -43,15 +43,15 @@ pub enum ProblemError {
         value: f64,
     },
     /// A decision vector of another length.
-    #[error("a decision vector of {found} numbers, but there are {expected} variables")]
+    #[error("a decision vector needs one number for each of the {expected} variables, got {found}")]
     WrongLength {
         /// How many numbers there must be.
         expected: usize,
         /// How many there were.
         found: usize,
     },
-    /// A component of the decision vector that is no number.
-    #[error("{condition} = {value}: a decision must be finite")]
+    /// A component of the decision vector that is not finite.
+    #[error("{condition} must be finite, got {value}")]
     NotFinite {
         /// Of which variable.
         condition: Condition,
@@ -59,7 +59,7 @@ pub enum ProblemError {
         value: f64,
     },
     /// The station's step is no multiple of the vehicle's.
-    #[error("the station's step of {station_ns} ns is no multiple of the vehicle's of {step_ns} ns")]
+    #[error("the station's step must be a multiple of the vehicle's, {step_ns} ns, got {station_ns} ns")]
     StationStep {
         /// The vehicle's step, ns.
         step_ns: u64,
@@ -67,7 +67,7 @@ pub enum ProblemError {
         station_ns: u64,
     },
     /// A duration that is no multiple of the station's step.
-    #[error("a mission of {duration_s} s is no whole number of the station's steps of {step_s} s")]
+    #[error("a mission's duration must be a multiple of the station's step, {step_s} s, got {duration_s} s")]
     Duration {
         /// The duration, s.
         duration_s: f64,
@@ -75,7 +75,7 @@ pub enum ProblemError {
         step_s: f64,
     },
     /// A camera with noise: a cost would be a random number.
-    #[error("the station's camera has noise of {noise_px} px, which makes the cost random: set it to 0")]
+    #[error("the noise of the station's camera must be 0, since it makes the cost random, got {noise_px} px")]
     NoisyCamera {
         /// Its standard deviation, px.
         noise_px: f64,
@@ -96,7 +96,7 @@ pub enum ProblemError {
     #[error(transparent)]
     Controller(#[from] ControllerError),
     /// A grid of a surface that has no points.
-    #[error("a surface needs at least 2 x 2 nodes, not {columns} x {rows}")]
+    #[error("a surface needs at least 2 x 2 nodes, got {columns} x {rows}")]
     EmptySurface {
         /// Nodes along the first variable.
         columns: usize,
@@ -104,14 +104,14 @@ pub enum ProblemError {
         rows: usize,
     },
     /// A surface over other than two variables.
-    #[error("a surface needs a problem of two variables, not of {variables}")]
+    #[error("a surface needs a problem of two variables, got {variables}")]
     NotTwoVariables {
         /// How many there are.
         variables: usize,
     },
     /// Every rollout failed.
     #[error(
-        "all {evaluations} flights failed: the problem has no finite cost; look at one of them by its histories"
+        "all {evaluations} flights failed, so the problem has no finite cost: inspect the histories of one of them"
     )]
     AllFailed {
         /// How many there were.

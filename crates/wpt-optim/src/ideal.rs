@@ -36,7 +36,7 @@ impl Problem {
             };
             let receiver = ets.receiver.on(&flight.position, &flight.rotation.matrix);
             let station = aimed(ets, &receiver.centre);
-            // Zeroed commands within any limits.
+            // Commands u within any limits.
             let glance = self
                 .cost
                 .glance(ets, &station.gimbal, &flight, &self.cost.midway());

@@ -2,7 +2,7 @@
 //!
 //! A quadrotor crosses the field of a ground station that keeps a laser on the receiver it carries. Where should it cross, and how
 //! fast should it enter and leave, so that range, incidence and spot offset stay small? A [`Problem`] is that question at one level of the model
-//! family; it is asked by flying.
+//! family; flights answer it.
 //!
 //! ```
 //! use quad_dynamics::Level;
@@ -31,13 +31,13 @@
 //! | the cost without dynamics | [`Problem::ideal`] | |
 //! | the nominal settings | [`Choice`], [`Mission::crossing`] | 7.6, *choices* |
 //!
-//! # What a problem can be asked
+//! # Questions to a problem
 //!
 //! | question | by |
 //! | --- | --- |
 //! | one decision | [`Problem::evaluate`], with its history [`Problem::histories`] |
 //! | four side by side, on SIMD lanes | [`Problem::evaluate_lanes`] |
-//! | many, on lanes and all cores | [`Problem::evaluate_all`], [`Problem::surface`] |
+//! | many, on SIMD lanes and all cores | [`Problem::evaluate_all`], [`Problem::surface`] |
 //! | cost and gradient | [`Problem::gradient`] |
 //! | the same flight in the engine, bit for bit | [`Problem::simulation`] |
 //! | a function for the optimisers of [`optim`] that counts | [`Objective`], with [`Problem::variables`] |

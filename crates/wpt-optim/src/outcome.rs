@@ -16,7 +16,7 @@ pub struct Outcome {
     pub failure: Option<Failure>,
 }
 
-/// A flight that went beyond all limits or left the numbers.
+/// A flight that went beyond all limits or became non-finite.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
     /// The instant of the station at which it was noticed, s, to half a step.
@@ -45,7 +45,7 @@ pub struct History {
     pub velocity_m_s: [f64; 3],
     /// Attitude `[φ, θ, ψ]`, rad.
     pub attitude_rad: [f64; 3],
-    /// Zeroed commands of the step that ended now.
+    /// Commands u of the step that ended now.
     pub commands: [f64; 4],
     /// Pan and tilt of the station, rad.
     pub gimbal_rad: [f64; 2],

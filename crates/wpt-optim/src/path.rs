@@ -32,7 +32,7 @@ impl<R: Real> Path<R> {
             .facing(&(self.faced - position), &line_rate)
     }
 
-    /// The reference at a time, s, for a vehicle that is there with this velocity in W.
+    /// The reference at a time, s, for a vehicle at this position with this velocity in W.
     #[inline(always)]
     pub fn reference(&self, t: R, position: &Vector3<R>, velocity: &Vector3<R>) -> Reference<R> {
         let flat = self.flat_output(t, position, velocity);

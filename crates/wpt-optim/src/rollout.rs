@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The operations of [`sifre::ModelQuadrotor`], [`sifre::GimballedEts`] and [`sifre::Facing`] in their order, so that engine and rollout agree to the last
-//! bit on `f64`. No heap, no branch on a number: each lane of a SIMD scalar is a flight of its own.
+//! bit on `f64`. No heap, no branch on a number: each SIMD lane is a flight of its own.
 //!
 //! A flight fails when its position is beyond [`LOST_M`] or no number: from that instant on, each costs
 //! [`FAILURE`] in place of its terms, whatever the lane then holds. Means are those of the trapezoidal rule over the station's instants.
@@ -43,7 +43,7 @@ pub(crate) struct Instant<'a, R: Real> {
     pub(crate) flight: &'a Flight<R>,
     /// The station.
     pub(crate) ets: &'a EtsState<R>,
-    /// Zeroed commands of the step that ended now; those of hover at the start.
+    /// Commands u of the step that ended now; those of hover at the start.
     pub(crate) commands: &'a [R; 4],
     /// Geometry and terms of the cost.
     pub(crate) glance: &'a Glance<R>,

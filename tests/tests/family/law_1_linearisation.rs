@@ -19,7 +19,7 @@ struct Linear {
     b: B,
 }
 
-/// The matrices by hand, chapter 3.3.3: what each line says stands in the head of `level1.rs`.
+/// The matrices by hand, chapter 3.3.3: what each line says is in the head of `level1.rs`.
 fn by_hand(vehicle: &Vehicle, yaw: f64) -> Linear {
     let (g, (s, c)) = (vehicle.environment.gravity, yaw.sin_cos());
     let identity = Matrix3::<f64>::identity();

@@ -38,7 +38,7 @@ fn idle(body: RigidBodyState<f64>) -> Snapshot<f64> {
     }
 }
 
-/// Zeroed commands at which every model of the family gives no thrust: zero, or for the polynomials the
+/// Commands u at which every model of the family gives no thrust: zero, or for the polynomials the
 /// bottom of the range.
 fn no_thrust(vehicle: &Vehicle, polynomial: bool) -> Input<f64> {
     let bottom = *vehicle.zeroed_range().start();

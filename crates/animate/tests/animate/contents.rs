@@ -1,4 +1,4 @@
-//! What stands in the page.
+//! What is in the page.
 
 use crate::support::{NASTY, column, flight, scene, station};
 use animate::{Kind, Options, Scene, html};
@@ -21,7 +21,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 #[test]
 fn prop_the_page_needs_nothing_else() {
     let page = html(&flight(), &scene(), &Options::default()).unwrap();
-    // Whatever a page can load by itself: none of it is there, and its policy forbids the rest.
+    // Whatever a page can load by itself: nothing of this is present, and its policy forbids the rest.
     for loads in ["src=\"", "href=\"", "@import", "url(", "import("] {
         let ours = page.split("var THREE=").next().expect("the page before three.js");
         assert!(!ours.contains(loads), "{loads}");

@@ -17,7 +17,7 @@ use sysid::recorded::InertialLog;
 const RUN_IN_S: f64 = 1.0;
 /// The line of levels 1 to 4 goes through the curve from half to one and a half times the thrust of hover.
 const LINE_OF_HOVER: (f64, f64) = (0.5, 1.5);
-/// Longest median step, s, at which lag and inertia can be told: half a bin of the increments.
+/// Longest median step, s, at which lag and inertia can be identified: half a bin of the increments.
 const LONGEST_STEP_S: f64 = 0.0105;
 /// Seconds that the picture shows of the rotation: more hides the curves in each other.
 const SHOWN_S: f64 = 4.0;
@@ -26,7 +26,7 @@ pub(super) fn identify(common: &Common, flown: &Flown, answer: &mut Answer) -> D
     let path = common
         .vehicle
         .as_ref()
-        .ok_or("a flight needs --vehicle: mass, places of the rotors and PWM range")?;
+        .ok_or("a flight needs --vehicle for mass, positions of the rotors and PWM range")?;
     let file = vehicle::read(path)?;
     let vehicle = Vehicle::from_file(&file, &path.display().to_string())?;
     let log = log(common, flown, &vehicle, answer)?;
@@ -63,7 +63,7 @@ fn log(
         .is_some_and(|e| e.eq_ignore_ascii_case("ulg"));
     let mut recorded = if is_ulog {
         let motors = <[usize; 4]>::try_from(flown.motors.as_slice())
-            .map_err(|_| "--motors takes four numbers, as in 1,2,3,4")?;
+            .map_err(|_| "--motors needs four numbers, as in 1,2,3,4")?;
         ulog::flight(&common.data, &motors, answer)?
     } else {
         let mut recorded = input::flight(&common.data, answer)?;
@@ -78,7 +78,7 @@ fn log(
         && step > LONGEST_STEP_S
     {
         answer.warnings.push(format!(
-            "the log has {:.0} samples a second: lag and inertia need 100 or more",
+            "lag and inertia need at least 100 samples per second, the log has {:.0}",
             1.0 / step
         ));
     }
@@ -92,7 +92,7 @@ fn shares(log: &mut InertialLog, vehicle: &Vehicle) -> Result<(), Box<dyn Error>
         for command in commands {
             if !(minimum..=maximum).contains(command) {
                 return Err(format!(
-                    "a duty of {command} at {time} s is outside the vehicle's PWM range {minimum} to {maximum}"
+                    "the duty must lie in the vehicle's PWM range, {minimum} to {maximum}, got {command} at {time} s"
                 )
                 .into());
             }
@@ -107,7 +107,7 @@ fn shares(log: &mut InertialLog, vehicle: &Vehicle) -> Result<(), Box<dyn Error>
 fn at_nominal_voltage(recorded: &mut Recorded, vehicle: &Vehicle, answer: &mut Answer) {
     let (Some(voltage), Some(battery)) = (&recorded.voltage, &vehicle.battery) else {
         answer.warnings.push(
-            "the log or the vehicle file has no battery voltage: the thrust curve is that of the flight's mean voltage".to_owned(),
+            "the log or the vehicle file has no battery voltage: the thrust curve holds at the flight's mean voltage".to_owned(),
         );
         return;
     };
@@ -126,11 +126,11 @@ fn numbers(found: &ThrustAndInertia, vehicle: &Vehicle, mass: f64, answer: &mut 
     let lag = found.thrust.lag();
     let duty = |share: f64| pwm.minimum + range * share;
     let line_of = format!(
-        "line through the thrust curve over duties {:.4} to {:.4}, mass {mass} kg taken as known",
+        "line through the thrust curve over duties {:.4} to {:.4}, mass {mass} kg assumed known",
         duty(*operating.start()),
         duty(*operating.end())
     );
-    let taken = format!("mass {mass} kg taken as known");
+    let taken = format!("mass {mass} kg assumed known");
     let inverse = 1.0 / lag.value;
     for (key, fit) in [
         ("airframe.inertia_xx_kg_m2", &found.roll),

@@ -46,7 +46,7 @@ fn bandwidth(thrust: &ResponseFit, answer: &mut Answer) {
             answer.push_made("linear_rotor.bandwidth_rad_s", "rad/s", rate, made);
         }
         Poles::Complex { .. } => answer.warnings.push(
-            "the thrust answers with a complex pair of poles: there is no slowest pole to write as the bandwidth of level 3"
+            "the thrust has a complex pair of poles, so it has no slowest pole to use as the bandwidth of level 3"
                 .to_owned(),
         ),
     }

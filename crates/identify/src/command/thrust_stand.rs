@@ -68,12 +68,12 @@ pub(super) fn identify(common: &Common, range: LineRange, answer: &mut Answer) -
     let path = common
         .vehicle
         .as_ref()
-        .ok_or("a thrust stand needs --vehicle: diameter, air density and PWM range")?;
+        .ok_or("a thrust stand needs --vehicle for diameter, air density and PWM range")?;
     let file = vehicle::read(path)?;
     let propeller = file
         .propeller
         .as_ref()
-        .ok_or("the vehicle file has no [propeller] with its diameter")?;
+        .ok_or("the vehicle file needs [propeller] with a diameter")?;
     let scale = PropellerScale {
         diameter_m: propeller.diameter_m.value,
         air_density_kg_m3: file.environment.air_density_kg_m3.value,

@@ -34,11 +34,11 @@ pub(crate) fn flight(
     answer: &mut Answer,
 ) -> Result<Recorded, Box<dyn Error>> {
     let name = path.display();
-    let text = path.to_str().ok_or("a ULog's path must be UTF-8")?;
+    let text = path.to_str().ok_or("the path of a ULog file must be UTF-8")?;
     let named = |error: String| format!("{name}: {error}");
     let file = File::open(path).map_err(|e| named(e.to_string()))?;
     if !file.metadata().is_ok_and(|metadata| metadata.is_file()) {
-        return Err(named("a ULog is read twice, so it must be a file".to_owned()).into());
+        return Err(named("a ULog is read twice, so it must be a file, not a stream".to_owned()).into());
     }
     structure::check(BufReader::new(file)).map_err(named)?;
     let mut gathered = Gathered::new(motors);
@@ -56,12 +56,12 @@ pub(crate) fn flight(
     };
     if is_damaged {
         answer.warnings.push(format!(
-            "{name}: the log is cut off or damaged; what comes before is used"
+            "{name}: the log is cut off or damaged; the part before is used"
         ));
     }
     if gathered.backwards > 0 {
         answer.warnings.push(format!(
-            "{name}: {} messages of sensor_combined are not later than the one before and are left out",
+            "{name}: {} messages of sensor_combined are not later than the one before and are ignored",
             gathered.backwards
         ));
     }

@@ -25,7 +25,7 @@ type Formats = HashMap<String, Vec<(String, u64)>>;
 ///
 /// # Errors
 /// A format that repeats or nests its fields beyond what a message can hold; subscriptions with more fields than a log can need; a file that
-/// can't be read. A log that is cut off is none.
+/// can't be read. A log that is cut off is not one.
 pub(super) fn check(mut log: impl Read) -> Result<(), String> {
     let mut head = [0; HEAD];
     if !filled(&mut log, &mut head)? {

@@ -138,7 +138,7 @@ fn agree_a_ulog_gives_what_its_csv_gives() {
         (value / 0.03 - 1.0).abs() < 0.1
     };
     assert!(!close);
-    // Cut in the middle of a message, as by a lost battery: what comes before is used, and it is told.
+    // Cut in the middle of a message, as by a lost battery: the part before is used, with a warning.
     let cut = file("cut.ulg", &log[..log.len() * 9 / 10 + 1]);
     let output = flight(&cut, &["--motors", "2,4,1,3", "--from", "11.5"]);
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));

@@ -117,7 +117,7 @@ fn exact_a_good_swing_is_identified_and_written() {
     let inertia = file.airframe.inertia_xx_kg_m2;
     assert_eq!((inertia.value, inertia.standard_error), (value, Some(error)));
     assert_eq!(inertia.source, "identified: identify pendulum good.csv");
-    // All other lines of the user's file, comments too, are there as they were.
+    // All other lines of the user's file, comments too, are unchanged.
     let old = quad_dynamics::vehicle::builtin::QBALL_X4_TOML;
     let changed = old.lines().zip(text.lines()).filter(|(a, b)| a != b).count();
     assert_eq!((changed, text.lines().count()), (1, old.lines().count()));
@@ -138,11 +138,7 @@ fn exact_bad_files_are_refused_with_the_line() {
         ("backwards.csv", with(9, "0.01,0.6"), "line 9"),
         ("nan.csv", with(9, "0.12,NaN"), "line 9"),
         ("empty.csv", Vec::new(), "empty"),
-        (
-            "kind.csv",
-            vec![0x89, b'P', b'N', b'G', 0, 255],
-            "no comma-separated table",
-        ),
+        ("kind.csv", vec![0x89, b'P', b'N', b'G', 0, 255], "not a CSV file"),
         (
             "constant.csv",
             b"time_s,angle_rad\n0,0.1\n0.02,0.1\n0.04,0.1\n0.06,0.1\n".to_vec(),
@@ -179,7 +175,7 @@ fn exact_remarks_of_the_reader_are_said_with_a_refusal() {
         message.contains("warning:") && message.contains("\"reading_v\" is 1 V throughout"),
         "{message}"
     );
-    assert!(message.contains("error: all 30 data are 1"), "{message}");
+    assert!(message.contains("error: all 30 data points are 1"), "{message}");
 }
 
 /// A potentiometer that ends at ±0.5 rad, and an amplifier that ends at 2 V.
@@ -197,7 +193,7 @@ fn exact_a_saturated_sensor_is_told() {
     }
     let message = said(&pendulum(&file("clipped.csv", text.as_bytes()), &[]));
     assert!(
-        message.contains("column \"angle_rad\" sits at its extreme 0.3 rad"),
+        message.contains("column \"angle_rad\" stays at its extreme 0.3 rad"),
         "{message}"
     );
     let mut text = "load_n,reading_v\n".to_owned();
@@ -212,7 +208,7 @@ fn exact_a_saturated_sensor_is_told() {
     assert_eq!(output.status.code(), Some(0));
     let message = said(&output);
     assert!(
-        message.contains("sit at the end of the sensor's range (1.8)"),
+        message.contains("are at the end of the sensor's range (1.8)"),
         "{message}"
     );
 }
@@ -223,7 +219,7 @@ fn exact_a_commanded_column_is_not_called_saturated() {
     let template = identify(&["template", "rotor-response"]);
     let data = file("prbs.csv", &template.stdout);
     let message = said(&identify(&["rotor-response", data.to_str().unwrap()]));
-    assert!(!message.contains("sits at its extreme"), "{message}");
+    assert!(!message.contains("stays at its extreme"), "{message}");
 }
 
 /// The slowest pole of the second-order transfer function, the vehicle file's definition: 14.4653 rad/s at hover. A fit of first

@@ -135,7 +135,7 @@ proptest! {
         stays_inside(search, gradient, bounds)?;
     }
 
-    /// A population that is told in any order goes on in the same way.
+    /// A population that is answered in any order continues in the same way.
     #[test]
     fn prop_the_order_of_telling_does_not_matter(
         seed in any::<u64>(), order in Just((0..30_usize).collect::<Vec<_>>()).prop_shuffle(),
@@ -155,7 +155,7 @@ proptest! {
     }
 }
 
-/// What was proposed and lost is proposed again; what was told is told once.
+/// What was proposed and lost is proposed again; an answer is used once.
 #[test]
 fn exact_lost_candidates_are_renewed() {
     let mut search = evolution(space(2, -5.0, 5.0), 7);

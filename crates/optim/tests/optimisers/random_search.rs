@@ -51,7 +51,7 @@ proptest! {
         }
     }
 
-    /// All asked for first, told in any order: the same best as one after the other.
+    /// All asked for first, answered in any order: the same best as one after the other.
     #[test]
     fn prop_the_order_of_telling_does_not_matter(
         seed in any::<u64>(), order in Just((0..20_usize).collect::<Vec<_>>()).prop_shuffle(),

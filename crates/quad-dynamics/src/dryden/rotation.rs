@@ -123,7 +123,7 @@ impl<R: Real> DrydenRotation<R> {
         }
     }
 
-    /// A state of turbulence that has gone on for ever, beside [`DrydenState::stationary`] of the same `gusts`' noise.
+    /// A state of turbulence that has continued for ever, beside [`DrydenState::stationary`] of the same `gusts`' noise.
     pub fn stationary(
         &self,
         gusts: &DrydenNoise<R>,

@@ -1,4 +1,4 @@
-//! What an estimator needs to go on later, bit for bit.
+//! What an estimator needs to resume later, bit for bit.
 //!
 //! The belief at the oldest instant, and the inputs and measurements since: going over them once more gives every later
 //! belief as it was, so that none of them need be kept.
@@ -30,7 +30,7 @@ pub struct EstimatorMemory {
 pub struct RememberedInstant {
     /// When, ns.
     pub time_ns: u64,
-    /// Zeroed commands that acted up to it.
+    /// Commands u that acted up to it.
     pub commands: [f64; 4],
     /// Wind that acted up to it, m/s in W.
     pub wind_m_s: [f64; 3],
@@ -100,7 +100,7 @@ fn same_length(what: &'static str, expected: usize, found: usize) -> Result<(), 
 }
 
 impl<F: Filter<Process = LevelProcess>> Estimator<F> {
-    /// All it needs to go on later as if nothing had happened.
+    /// Everything it needs to resume later as if nothing had happened.
     pub fn memory(&self) -> EstimatorMemory {
         let oldest = self.epochs.front().map_or(self.filter.belief(), |e| &e.prior);
         EstimatorMemory {

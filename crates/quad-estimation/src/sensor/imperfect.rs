@@ -40,9 +40,7 @@ pub struct Sensor {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SensorError {
     /// A rate that is zero, negative or not finite.
-    #[error(
-        "the {instrument} must give readings at a positive, finite rate (at most 1e9 Hz), not {rate_hz} Hz"
-    )]
+    #[error("the {instrument}'s rate must be positive and at most 1e9 Hz, got {rate_hz} Hz")]
     Rate {
         /// Which sensor.
         instrument: Instrument,
@@ -50,7 +48,7 @@ pub enum SensorError {
         rate_hz: f64,
     },
     /// A noise, bias, drift, quantum or delay that is negative or not finite.
-    #[error("the {instrument}'s {what} must be finite and not negative, not {value}")]
+    #[error("the {instrument}'s {what} must be finite and not negative, got {value}")]
     Imperfection {
         /// Which sensor.
         instrument: Instrument,
@@ -60,7 +58,7 @@ pub enum SensorError {
         value: f64,
     },
     /// A probability of losing a reading outside 0 to 1, or 1.
-    #[error("the {instrument} must lose readings with a probability from 0 to below 1, not {dropout}")]
+    #[error("the {instrument}'s probability of a lost reading must be at least 0 and below 1, got {dropout}")]
     Dropout {
         /// Which sensor.
         instrument: Instrument,
@@ -68,7 +66,7 @@ pub enum SensorError {
         dropout: f64,
     },
     /// A range without width.
-    #[error("the {instrument}'s range from {minimum} to {maximum} is empty")]
+    #[error("the {instrument}'s range must not be empty, got {minimum} to {maximum}")]
     EmptyRange {
         /// Which sensor.
         instrument: Instrument,
@@ -78,13 +76,13 @@ pub enum SensorError {
         maximum: f64,
     },
     /// A magnetic field that tells no direction.
-    #[error("the magnetometer needs a finite field that is not zero, not {field_ut:?} µT")]
+    #[error("the magnetometer needs a finite field that is not zero, got {field_ut:?} µT")]
     Field {
         /// The field, µT.
         field_ut: [f64; 3],
     },
     /// Noise and quantum are both zero: a filter can't weigh such a reading.
-    #[error("the {instrument} has neither noise nor quantum: a filter needs to know how far to trust it")]
+    #[error("the {instrument} needs noise or a quantum, so that a filter knows how far to trust it")]
     Perfect {
         /// Which sensor.
         instrument: Instrument,

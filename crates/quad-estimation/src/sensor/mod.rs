@@ -9,8 +9,8 @@
 //! position fix    r_W
 //! ```
 //!
-//! All sit in the centre of mass and look along the body's axes. Pure functions of what is there to be seen, generic in
-//! the scalar: the filter's Jacobians come from the same text. Source: Beard and McLain, *Small Unmanned Aircraft*
+//! All sit in the centre of mass and look along the body's axes. Pure functions of what can be measured, generic in
+//! the scalar: the filter's Jacobians come from the same code. Source: Beard and McLain, *Small Unmanned Aircraft*
 //! (2012), chapter 7.
 
 mod imperfect;

@@ -58,7 +58,7 @@ fn calibrated() -> Option<Calibrated> {
 }
 
 impl Calibrated {
-    /// The zeroed commands of a sample, trimmed; level 5 sees the voltage as a scale.
+    /// The commands u of a sample, trimmed; level 5 sees the voltage as a scale.
     fn input(&self, level: Level, flight: &MotionCaptureFlight, k: usize) -> Input<f64> {
         let scale = match level {
             Level::Five => flight.voltage[k] / self.calibration.nominal_voltage,

@@ -69,7 +69,7 @@ impl<R: Real> C3<R> {
         })
     }
 
-    /// Zeroed commands that give `z⃛ = v_z`, m/s³, and `η⃛ = v_η`, rad/s³, on level 3 with these thrusts, N.
+    /// Commands u that give `z⃛ = v_z`, m/s³, and `η⃛ = v_η`, rad/s³, on level 3 with these thrusts, N.
     pub fn invert(&self, flight: &Flight<R>, thrusts: &[R; 4], v_z: R, v_eta: &Vector3<R>) -> [R; 4] {
         self.commands(&self.motion(flight, thrusts), flight, thrusts, v_z, v_eta)
     }
@@ -114,7 +114,7 @@ impl<R: Real> C3<R> {
         std::array::from_fn(|i| (thrusts[i] + thrust_rates[i] * lead) * per_thrust)
     }
 
-    /// Zeroed commands, before limits, for the thrusts that the controller believes in.
+    /// Commands u, before limits, for the thrusts that the controller believes in.
     #[inline(always)]
     fn demand(&self, flight: &Flight<R>, reference: &Reference<R>, thrusts: &[R; 4]) -> [R; 4] {
         let (flat, ff, g) = (&reference.flat, &reference.attitude, self.body.gravity);

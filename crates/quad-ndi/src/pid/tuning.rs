@@ -167,13 +167,13 @@ pub struct StartReport {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TuningError {
     /// No start or no flight.
-    #[error("tuning option `{key}` = 0: nothing would be tuned")]
+    #[error("tuning option `{key}` must be at least 1, got 0")]
     Nothing {
         /// Which.
         key: &'static str,
     },
     /// A step that is zero, NaN or infinite.
-    #[error("tuning option `{tuned}.step` = {step}: it must be finite and not zero")]
+    #[error("tuning option `{tuned}.step` must be finite and not zero, got {step}")]
     Step {
         /// The loop.
         tuned: TunedLoop,
@@ -182,7 +182,7 @@ pub enum TuningError {
     },
     /// A sampling time that a flight of 4τ can't have.
     #[error(
-        "tuning option `step_s` = {step_s} makes {samples} samples of a flight of the {tuned} loop: 100 to 1e6 are sensible"
+        "tuning option `step_s`: a flight of the {tuned} loop needs 100 to 1e6 samples, got {samples} from {step_s} s"
     )]
     Sampling {
         /// The loop.

@@ -290,7 +290,7 @@ fn exact_a_controller_above_its_model_is_refused() {
             if let Err(refused) = pairing {
                 let message = refused.to_string();
                 assert!(
-                    message.contains(&format!("controller of level {lowest}")),
+                    message.contains(&format!("controller for level {lowest}")),
                     "{message}"
                 );
                 assert!(message.contains(&format!("model of {level}")), "{message}");

@@ -206,7 +206,7 @@ fn prop_a_smooth_reference_sees_no_set_point_weight() {
         // The rectangle rule of the integral is half a step late: 0.5 ms at up to 1.5 m/s, half of k_p of it.
         assert!((a.1 - b.1).abs() < 1e-3, "{a:?} {b:?}");
     }
-    // And it lags, if at all, by the acceleration it isn't told: (s³ + 0)/(…) of the path.
+    // And it lags, if at all, by the acceleration that it isn't given: (s³ + 0)/(…) of the path.
     let worst = a.iter().map(|(t, h)| (h - path(*t).0).abs()).fold(0.0, f64::max);
     assert!(worst < 0.35, "{worst}");
 }

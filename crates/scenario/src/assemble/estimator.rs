@@ -154,7 +154,7 @@ fn uncertainty(
     })
 }
 
-/// Says so if sensors can't be as fast as they are to be.
+/// Notes if sensors can't be as fast as requested.
 fn note_fast_sensors(built: &mut Built, of: &QuadrotorFile, file: &EstimatorFile) {
     let SensorsFile::List(list) = &file.sensors else {
         return;
@@ -164,7 +164,7 @@ fn note_fast_sensors(built: &mut Built, of: &QuadrotorFile, file: &EstimatorFile
     for (place, sensor) in list.iter().enumerate() {
         if sensor.rate_hz * step_s > 1.0 + 1e-6 {
             built.notes.push(format!(
-                "\"{}\": estimator.sensors[{place}] is to read {} times a second, but reads once per step of {step_s} s",
+                "\"{}\": estimator.sensors[{place}] reads once per step of {step_s} s, not at its rate of {} Hz",
                 of.name, sensor.rate_hz
             ));
         }

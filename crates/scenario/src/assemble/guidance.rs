@@ -211,7 +211,7 @@ fn turn(agent: &str, circle: &Circle, gravity: f64, law: TiltLaw) -> Result<Task
             agent: format!("quadrotor \"{agent}\""),
             key: "reference.period_s".to_owned(),
             value: circle.period_s,
-            must: "other than zero",
+            must: "non-zero",
         });
     }
     let circle = *circle;

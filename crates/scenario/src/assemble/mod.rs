@@ -95,7 +95,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Anything that can't be: a vehicle that isn't there, a controller above its level, waypoints that go back in time.
-    /// Whether agents look at others that are there is seen by [`Built::start`].
+    /// [`Built::start`] checks that agents refer to existing others.
     pub fn build(&self, files: &dyn Files) -> Result<Built, ScenarioError> {
         self.check()?;
         let mut built = Built {

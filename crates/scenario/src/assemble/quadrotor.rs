@@ -136,13 +136,13 @@ fn gusts(file: TurbulenceFile, seed: u64) -> Turbulence {
     }
 }
 
-/// Says so if the wind can't be felt.
+/// Notes if the wind has no effect.
 fn note_wind(built: &mut Built, file: &QuadrotorFile) {
     let still = |wind: &[f64; 3]| *wind == [0.0; 3];
     let is_calm = still(&file.wind.velocity_m_s) && file.wind.steps.iter().all(|s| still(&s.velocity_m_s));
     if !is_calm && !any_phenomenon(file, Phenomenon::Drag) {
         built.notes.push(format!(
-            "\"{}\" flies in wind at level {} without drag and does not feel it: give it phenomena = [\"drag\"] (levels 2 and \
+            "\"{}\" flies in wind at level {} without drag and is not affected by it: set phenomena = [\"drag\"] (levels 2 and \
              3) or fly at level 4 or 5",
             file.name,
             file.level.number()

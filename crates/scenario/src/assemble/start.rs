@@ -75,7 +75,7 @@ impl<'a> Starts<'a> {
                 break Some(*known);
             }
             let Some((leader, ..)) = followed(at) else {
-                // What is wrong with a leader is told where that is added.
+                // What is wrong with a leader is reported where the leader is added.
                 let own = own(at);
                 break if chain.is_empty() { Some(own?) } else { own.ok() };
             };

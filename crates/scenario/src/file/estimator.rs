@@ -17,7 +17,7 @@ pub struct EstimatorFile {
     /// Level of the filter's model, 1 to 5; at least the controller's own if it is in the loop.
     #[schemars(schema_with = "level")]
     pub level: Level,
-    /// The phenomena switched on in the filter's model; those of its level unless told otherwise.
+    /// The phenomena switched on in the filter's model; those of its level by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "phenomena")]
     pub phenomena: Option<PhenomenonSet>,
@@ -25,13 +25,13 @@ pub struct EstimatorFile {
     #[schemars(schema_with = "filter")]
     pub filter: FilterKind,
     /// How good accelerometer, gyroscope, magnetometer, sonar and position fixes are (`good`, `poor` or `very-poor`), or a list of
-    /// sensors of one's own.
+    /// sensors of your own.
     pub sensors: SensorsFile,
     /// Whether the controller sees the estimate instead of the flight; if not, it is recorded and nothing else.
     pub in_loop: bool,
-    /// What it is told wrong of the flight that it begins with; nothing unless told.
+    /// The error of its initial estimate; none by default.
     pub initial_error: InitialErrorFile,
-    /// How uncertain it says to be of what it is told.
+    /// Its stated initial uncertainty.
     pub initial_deviation: InitialDeviationFile,
 }
 

@@ -10,7 +10,7 @@ use std::path::Path;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StopFile {
-    /// A quadrotor below the ground ends the run. On unless switched off: nothing flies on underground by mistake.
+    /// A quadrotor below the ground ends the run. On by default: nothing continues underground by mistake.
     pub ground: bool,
     /// Height of the ground above the world's origin, m.
     pub ground_height_m: f64,
@@ -53,7 +53,7 @@ pub struct OutputFile {
     /// The file, relative to where the program runs; nothing is recorded without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
-    /// Its form; by the path's ending (.csv, .parquet or .jsonl) unless told otherwise.
+    /// Its format; by default that of the path's extension (.csv, .parquet or .jsonl).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub format: Option<Format>,
     /// Time between two rows, s.

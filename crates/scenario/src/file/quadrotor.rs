@@ -25,14 +25,14 @@ pub struct QuadrotorFile {
     #[serde(default = "three")]
     #[schemars(schema_with = "level")]
     pub level: Level,
-    /// The phenomena switched on; those of the level unless told otherwise.
+    /// The phenomena switched on; those of the level by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "phenomena")]
     pub phenomena: Option<PhenomenonSet>,
     /// Who flies it.
     #[serde(default)]
     pub controller: ControllerFile,
-    /// Where it begins, in hover; where its reference begins unless told otherwise.
+    /// Where it begins, in hover; by default where its reference begins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<StartFile>,
     /// What it is asked to do.
@@ -108,7 +108,7 @@ pub struct TurbulenceFile {
     /// Wind 20 ft above the ground, m/s, which sets the intensity: 7.7 is light, 15 moderate, 23 severe.
     pub w20_m_s: f64,
     /// Whether the gusts turn the air too, which acts on the damping of the body's rates: the specification has it so, and so
-    /// does this unless told `false`. The velocity of the gusts is the same either way.
+    /// does this unless it is `false`. The velocity of the gusts is the same either way.
     #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub rotational: bool,
 }
@@ -142,7 +142,7 @@ pub struct LevelChange {
     /// The level, 1 to 5.
     #[schemars(schema_with = "level")]
     pub level: Level,
-    /// The phenomena switched on; those of the level unless told otherwise.
+    /// The phenomena switched on; those of the level by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(schema_with = "phenomena")]
     pub phenomena: Option<PhenomenonSet>,

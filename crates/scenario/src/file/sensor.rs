@@ -70,7 +70,7 @@ pub enum SensorKind {
     PositionFix,
 }
 
-/// What a filter is told wrong of the flight that it begins with: belief less flight. Each is three numbers, or one: the standard
+/// The error of a filter's initial estimate: belief less flight. Each is three numbers, or one: the standard
 /// deviation that it is drawn with on each axis, from the scenario's seed and the quadrotor's name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -93,7 +93,7 @@ pub enum ErrorFile {
     Drawn(f64),
 }
 
-/// How uncertain the filter says to be of what it is told, as standard deviations on each axis.
+/// The filter's stated initial uncertainty, as standard deviations on each axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct InitialDeviationFile {

@@ -26,7 +26,7 @@ fn exact_files_that_are_wrong_are_told_with_line_and_key() {
     says("name = \"x\"", &["`duration_s` is missing"]);
     says(
         &one(SECOND, "levle = 3", ""),
-        &["test.toml:6:1", "no key `quadrotor[0].levle`", "level"],
+        &["test.toml:6:1", "unknown key `quadrotor[0].levle`", "level"],
     );
     says(
         &one(SECOND, "level = 6", ""),
@@ -36,12 +36,12 @@ fn exact_files_that_are_wrong_are_told_with_line_and_key() {
         &one(SECOND, "phenomena = [\"rain\"]", ""),
         &["`quadrotor[0].phenomena", "rain", "drag"],
     );
-    // Inside a table that is told apart by its kind.
+    // Inside a table that is distinguished by its kind.
     let helix = "name = \"x\"\nduration_s = 1\n[[quadrotor]]\nname = \"a\"\n\
                  reference = { kind = \"hold\", position_m = [0, 0, -1], radius_m = 2 }";
     says(
         helix,
-        &["test.toml:5:", "no key `quadrotor[0].reference.radius_m`"],
+        &["test.toml:5:", "unknown key `quadrotor[0].reference.radius_m`"],
     );
     says(&helix.replace("hold", "hover"), &["hover", "polynomial"]);
 }
@@ -61,7 +61,7 @@ fn exact_missing_vehicles_and_stations() {
     );
 }
 
-/// Places so far away that the square of a distance is no number.
+/// Places so far away that the square of a distance is not finite.
 #[test]
 fn exact_numbers_that_are_too_large_are_told_with_their_key() {
     let limit = "finite and at most 1e9 in magnitude";
@@ -69,12 +69,12 @@ fn exact_numbers_that_are_too_large_are_told_with_their_key() {
         |path: &str| format!("name = \"x\"\nduration_s = 1\n[[target]]\nname = \"t\"\npath = {path}");
     says(
         &target("{ kind = \"fixed\", position_m = [1e308, 0, 0] }"),
-        &["target \"t\": path.position_m = 1e308", limit],
+        &["target \"t\": path.position_m must be", limit, "got 1e308"],
     );
     let way = "{ time_s = 0, position_m = [0, 0, 0] }, { time_s = 1, position_m = [0, 1e200, 0] }";
     says(
         &target(&format!("{{ kind = \"waypoints\", waypoints = [{way}] }}")),
-        &["path.waypoints[1].position_m = 1e200", limit],
+        &["path.waypoints[1].position_m must be", limit, "got 1e200"],
     );
     says(
         &one(SECOND, "start = { position_m = [2e9, 0, 0] }", ""),
@@ -83,7 +83,7 @@ fn exact_numbers_that_are_too_large_are_told_with_their_key() {
     let ets = "[[ets]]\nname = \"station\"\ntracks = \"alpha\"\nposition_m = [0, 0, -1e300]";
     says(
         &one(SECOND, "", ets),
-        &["ets \"station\": position_m = -1e300", limit],
+        &["ets \"station\": position_m must be", limit, "got -1e300"],
     );
 }
 
@@ -96,10 +96,10 @@ fn exact_gimbals_start_inside_their_travel() {
     };
     says(
         &ets("pan_deg = 171"),
-        &["ets \"station\"", "pan_deg = 171", "-170.0 to 170.0 degrees"],
+        &["ets \"station\"", "`pan_deg`", "-170.0 to 170.0 degrees, got 171"],
     );
-    says(&ets("tilt_deg = -500"), &["tilt_deg = -500", "travel"]);
-    says(&ets("pan_deg = 1e308"), &["pan_deg = 1", "travel"]);
+    says(&ets("tilt_deg = -500"), &["`tilt_deg`", "travel", "got -500"]);
+    says(&ets("pan_deg = 1e308"), &["`pan_deg`", "travel", "got 1"]);
 }
 
 #[test]
@@ -176,10 +176,10 @@ fn exact_names() {
     ] {
         says(
             &one(SECOND, "", &twice.replace("alpha", hostile)),
-            &["can't be an agent's name"],
+            &["an agent's name must have"],
         );
         let titled = one(SECOND, "", "").replace("name = \"test\"", &format!("name = \"{hostile}\""));
-        says(&titled, &["name = ", "none of them a line break"]);
+        says(&titled, &["`name` must have", "none of them a line break"]);
     }
 }
 
@@ -187,10 +187,16 @@ fn exact_names() {
 fn exact_times_and_steps() {
     says(
         &one("duration_s = -1.0", "", ""),
-        &["duration_s = -1", "after the start"],
+        &["`duration_s` = -1", "must be positive"],
     );
-    says(&one("duration_s = 0", "", ""), &["duration_s = 0"]);
-    says(&one("duration_s = nan", "", ""), &["duration_s = NaN"]);
+    says(
+        &one("duration_s = 0", "", ""),
+        &["`duration_s` = 0", "must be positive"],
+    );
+    says(
+        &one("duration_s = nan", "", ""),
+        &["`duration_s` = NaN", "finite"],
+    );
     says(&one("duration_s = 1e99", "", ""), &["duration_s"]);
     // Two steps have a common tick as long as both are whole nanoseconds; a third of a millisecond is none.
     says(
@@ -257,7 +263,7 @@ fn exact_estimators_that_are_wrong_are_refused() {
     let with = |keys: &str| one(SECOND, &format!("estimator = {{ {keys} }}"), "");
     says(
         &with("sensor = \"good\""),
-        &["no key `quadrotor[0].estimator.sensor`", "sensors"],
+        &["unknown key `quadrotor[0].estimator.sensor`", "sensors"],
     );
     says(
         &with("sensors = \"worst\""),
@@ -291,21 +297,21 @@ fn exact_sensors_and_starts_that_are_wrong_are_told_with_their_key() {
     for (text, key, said) in [
         (wrong("rate_hz = 10", "rate_hz = 0"), "rate_hz", "0 Hz"),
         (wrong("rate_hz = 10", "rate_hz = -5"), "rate_hz", "-5 Hz"),
-        (wrong("0.03", "-0.03"), "noise", "not -0.03"),
-        (wrong("0.03", "0"), "noise", "neither noise nor quantum"),
+        (wrong("0.03", "-0.03"), "noise", "got -0.03"),
+        (wrong("0.03", "0"), "noise", "needs noise or a quantum"),
         (wrong("0.03", "nan"), "noise", "NaN"),
         (
             sensor(&format!("{good}, turn_on_bias = -1")),
             "turn_on_bias",
-            "not -1",
+            "got -1",
         ),
         (sensor(&format!("{good}, bias_drift = inf")), "bias_drift", "inf"),
-        (sensor(&format!("{good}, quantum = -1")), "quantum", "not -1"),
-        (sensor(&format!("{good}, delay_s = -0.1")), "delay_s", "not -0.1"),
+        (sensor(&format!("{good}, quantum = -1")), "quantum", "got -1"),
+        (sensor(&format!("{good}, delay_s = -0.1")), "delay_s", "got -0.1"),
         (
             sensor(&format!("{good}, dropout = 1")),
             "dropout",
-            "below 1, not 1",
+            "below 1, got 1",
         ),
         (sensor(&format!("{good}, range = [3, 3]")), "range", "empty"),
         (
@@ -318,7 +324,7 @@ fn exact_sensors_and_starts_that_are_wrong_are_told_with_their_key() {
             "field_ut",
             "not zero",
         ),
-        (wrong("sonar", "gyroscope"), "kind", "one already"),
+        (wrong("sonar", "gyroscope"), "kind", "given twice"),
     ] {
         says(
             &text,
@@ -344,7 +350,7 @@ fn exact_sensors_and_starts_that_are_wrong_are_told_with_their_key() {
         (
             "initial_error = { position_m = -1 }",
             "initial_error.position_m",
-            "not -1",
+            "got -1",
         ),
         (
             "initial_error = { velocity_m_s = [0, nan, 0] }",
@@ -359,12 +365,12 @@ fn exact_sensors_and_starts_that_are_wrong_are_told_with_their_key() {
         (
             "initial_deviation = { position_m = 0 }",
             "initial_deviation.position_m",
-            "not 0",
+            "got 0",
         ),
         (
             "initial_deviation = { velocity_m_s = -1 }",
             "initial_deviation.velocity_m_s",
-            "not -1",
+            "got -1",
         ),
         (
             "initial_deviation = { attitude_deg = nan }",

@@ -67,12 +67,12 @@ fn exact_metrics_are_found_by_name_and_by_short_name() {
     assert!(matches!(&ambiguous, MetricError::Ambiguous { candidates, .. } if candidates.contains(full)));
     let unknown = flown.metric("tilt").unwrap_err().to_string();
     assert!(
-        unknown.contains("unknown metric `tilt`") && unknown.contains(full),
+        unknown.contains("no such metric `tilt`") && unknown.contains(full),
         "{unknown}"
     );
 }
 
-/// A metric of a flight that ended early is no number, whether it exists or not.
+/// A metric of a flight that ended early is not finite, whether it exists or not.
 #[test]
 fn exact_a_flight_that_ends_early_has_no_metrics() {
     let down = Setting::new("quadrotor.alpha.reference.position_m", vec![0.0, 0.0, 5.0]);

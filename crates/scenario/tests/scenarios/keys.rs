@@ -62,7 +62,7 @@ fn exact_wrong_paths_say_what_there_is() {
     // A key that scenarios don't have is refused when the table is read.
     set(&mut table, "quadrotor.alpha.mass", 1).unwrap();
     let error = Scenario::from_table(&table, "changed").unwrap_err().to_string();
-    assert!(error.contains("there is no key `quadrotor[0].mass`"), "{error}");
+    assert!(error.contains("unknown key `quadrotor[0].mass`"), "{error}");
 }
 
 /// The schema knows every key that a scenario with all its tables writes, and forbids others.

@@ -58,7 +58,7 @@ fn exact_offset_in_steady_wind() {
 /// Without rotors that lift, a fall ends at the ground, at the time that Galilei gives it.
 #[test]
 fn exact_nothing_falls_under_the_ground() {
-    // Zeroed commands at hover minus themselves: no thrust at all at level 2, so a free fall from 2 m.
+    // Commands u at hover minus themselves: no thrust at all at level 2, so a free fall from 2 m.
     let vehicle = quad_dynamics::Vehicle::qball_x4();
     let g = vehicle.environment.gravity;
     let duty = vehicle.airframe.mass * g / (4.0 * vehicle.linear_rotor.thrust_gain);
@@ -75,7 +75,7 @@ fn exact_nothing_falls_under_the_ground() {
     // Stopped within a step of the ground.
     assert!(*height_m < 0.0 && *height_m > -0.2, "{height_m}");
     assert!(flown.metric("alpha.height_min_m") > -0.2);
-    // On request it goes on.
+    // On request it continues.
     let through = fly(&hover(2, &drop, "[stop]\nground = false"));
     assert_eq!(through.ending.end, End::Done);
     assert!(through.last("alpha.position.z") > 10.0);

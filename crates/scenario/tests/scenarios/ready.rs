@@ -158,7 +158,7 @@ fn prop_near_the_ground_all_phenomena_act_together() {
     assert!((saved - expected).abs() < 3e-4, "{saved} instead of {expected}");
     assert!(calm.column("alpha.wind.y").iter().all(|wind| *wind == 0.0));
     assert!(flown.column("alpha.wind.y").iter().any(|wind| *wind != 0.0));
-    // Gusts turn the air unless they are told not to, and push alike at the start.
+    // Gusts turn the air unless that is switched off, and push alike at the start.
     assert!(flown.column("alpha.air_rate.x").iter().any(|rate| *rate != 0.0));
     let linear = fly(&ready("near-the-ground").replace("w20_m_s = 7.7", "w20_m_s = 7.7, rotational = false"));
     assert_eq!(linear.at("alpha.wind.x", 0.0), flown.at("alpha.wind.x", 0.0));
@@ -361,7 +361,7 @@ fn prop_the_estimator_is_in_the_loop() {
     }
 }
 
-/// The filter begins where it is told, 2 m to the north of the truth and 20 degrees to its right, and finds the truth to within
+/// The filter begins at its initial estimate, 2 m to the north of the truth and 20 degrees to its right, and finds the truth to within
 /// what it says of itself, which is better than a fix of 0.5 m.
 #[test]
 fn exact_a_wrong_start_is_found_out() {
@@ -370,7 +370,7 @@ fn exact_a_wrong_start_is_found_out() {
         flown.at(&format!("alpha.estimate.{axis}"), time_s) - flown.at(&format!("alpha.{axis}"), time_s)
     };
     let heading = |time_s| error("attitude.yaw", time_s).to_degrees();
-    // The first fix is still on its way: what is known of the north is what was told.
+    // The first fix is still on its way: the estimate of the north is still the initial one.
     assert!((error("position.x", 0.0) - 2.0).abs() < 1e-9);
     assert!(error("position.y", 0.0).abs() < 1e-9);
     assert!((flown.at("alpha.estimate.sd.position.x", 0.0) - 2.0).abs() < 1e-9);
@@ -388,7 +388,7 @@ fn exact_a_wrong_start_is_found_out() {
     let away = |t: f64| (flown.at("alpha.position.x", t)).hypot(flown.at("alpha.position.y", t));
     assert!(away(2.0) > 1.0, "{} m", away(2.0));
     assert!(away(20.0) < 0.6, "{} m", away(20.0));
-    // Told right, it knows the north to 0.1 m.
+    // With a right initial estimate the error in the north is 0.1 m.
     let told = ready("wrong-start")
         .replace("duration_s = 20.0", "duration_s = 0.1")
         .replace("initial_error = {", "# {")
@@ -428,7 +428,7 @@ fn agree_estimators_said_in_other_words() {
     ] {
         assert_eq!(listed.column(channel), named.column(channel), "{channel}");
     }
-    // A sensor that is too fast for the steps is told.
+    // A sensor that is too fast for the steps is reported.
     let fast = list.replace("rate_hz = 100, noise = 0.01", "rate_hz = 1000, noise = 0.01");
     let scenario =
         scenario::Scenario::from_toml_str(&text(&format!("sensors = {fast}")), "test").expect("read");

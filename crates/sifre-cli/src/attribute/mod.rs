@@ -7,7 +7,7 @@
 //! ```
 //!
 //! All models between two levels are flown by the controller of the lower one, so that the difference is the models' alone. Where
-//! another controller belongs to the upper level, what the change of controller adds is told beside. Source: Shapley 1953.
+//! another controller belongs to the upper level, the effect of the change of controller is listed separately. Source: Shapley 1953.
 
 mod output;
 
@@ -30,25 +30,25 @@ Example:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The scenario.
+    /// Scenario file.
     scenario: PathBuf,
-    /// The number that is explained, as `sifre run` prints it: `alpha.position_error_rms_m`; also step metrics
-    /// (`alpha.z.overshoot`) and a station's cost (`station.phi`). The agent's name may be left out where only one has it.
+    /// Metric to explain, as `sifre run` prints it: `alpha.position_error_rms_m`, step metrics
+    /// (`alpha.z.overshoot`) or a station's cost (`station.phi`). The agent's name may be omitted if only one agent has the metric.
     #[arg(long)]
     metric: String,
-    /// The lower level; all neighbouring levels without it.
+    /// Lower level [default: all pairs of adjacent levels].
     #[arg(long, value_parser = level_number())]
     from: Option<u8>,
-    /// The upper level; the next above --from without it.
+    /// Upper level [default: the next above --from].
     #[arg(long, requires = "from", value_parser = level_number())]
     to: Option<u8>,
     /// Set a key of the scenario: `--set duration_s=5`. May be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<Setting>,
-    /// The picture, .svg or .png.
+    /// Plot to this file, .svg or .png.
     #[arg(long, short)]
     plot: Option<PathBuf>,
-    /// Keep the scenario's controllers at the levels that they may fly, instead of the inversion that belongs to each.
+    /// Keep the scenario's controllers where they can fly the level, instead of using the inversion of each level.
     #[arg(long)]
     keep_controllers: bool,
 }
@@ -75,14 +75,14 @@ pub(crate) struct Controllers {
     pub(crate) adds: f64,
 }
 
-/// Two levels and what is between them, or why that can't be told.
+/// Two levels and what is between them, or why that is unknown.
 pub(crate) type Pair = (Level, Level, Result<Explained, String>);
 
 /// Why a run gave no number.
 enum Stop {
     Interrupted,
     Failure(Failure),
-    /// It ended early, as these words say.
+    /// It ended early, for this reason.
     Early(String),
 }
 
@@ -150,7 +150,7 @@ fn asked(arguments: &Arguments) -> Result<Vec<(Level, Level)>, Failure> {
     let to = arguments.to.unwrap_or(from + 1);
     if to <= from || to > Level::HIGHEST.number() {
         return Err(Failure::Usage(format!(
-            "--from {from} --to {to}: there is nothing between them; give a higher level with --to"
+            "--to must be above --from {from}, got {to}"
         )));
     }
     Ok(vec![(level(from)?, level(to)?)])
@@ -173,7 +173,7 @@ impl<'a> Question<'a> {
         }
     }
 
-    /// What makes the difference between two levels, or why that can't be told; nothing if it was interrupted.
+    /// What makes the difference between two levels, or why it is unknown; nothing if it was interrupted.
     pub(crate) fn explain(
         &mut self,
         lower: Level,
@@ -250,7 +250,7 @@ impl<'a> Question<'a> {
 }
 
 impl Explained {
-    /// The whole difference, the controllers' part included.
+    /// The total difference, including the controllers' part.
     pub(crate) fn difference(&self) -> f64 {
         self.models.difference() + self.controllers.as_ref().map_or(0.0, |c| c.adds)
     }

@@ -44,7 +44,7 @@ pub(crate) fn text(metric: &str, pairs: &[Pair]) -> String {
     for (lower, upper, explained) in pairs {
         let (a, b) = (lower.number(), upper.number());
         match explained {
-            Err(words) => text += &format!("level {a} to level {b}: can't be told: {words}\n\n"),
+            Err(words) => text += &format!("level {a} to level {b}: not available: {words}\n\n"),
             Ok(explained) => {
                 let from = explained.models.base;
                 let to = from + explained.difference();
@@ -69,7 +69,7 @@ fn verdict(explained: &Explained) -> String {
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     match largest {
         Some((name, share)) if share != 0.0 => format!("the largest part: {name}"),
-        _ => "nothing makes a difference here".to_owned(),
+        _ => "no part makes a difference here".to_owned(),
     }
 }
 

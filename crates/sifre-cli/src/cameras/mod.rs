@@ -1,4 +1,4 @@
-//! `sifre cameras`: where motion-capture cameras go on the walls of a room.
+//! `sifre cameras`: where to put motion-capture cameras on the walls of a room.
 
 mod output;
 
@@ -14,19 +14,19 @@ use std::path::PathBuf;
   sifre cameras --template > room.toml
   sifre cameras room.toml --plot room.svg --out cameras.csv")]
 pub(crate) struct Arguments {
-    /// The room, the volume that is flown in, and the cameras.
+    /// Room file: the room, the flight volume and the cameras.
     #[arg(required_unless_present = "template")]
     room: Option<PathBuf>,
-    /// Print a commented room to start from.
+    /// Print a commented room file to start from.
     #[arg(long, exclusive = true)]
     template: bool,
-    /// Judge the cameras of the file, and look for no others.
+    /// Evaluate the installed cameras only; do not search.
     #[arg(long)]
     no_search: bool,
-    /// Where to write the cameras found (those of the file with --no-search), as CSV.
+    /// Write the cameras found (with --no-search, the installed ones) to this CSV file.
     #[arg(long, short)]
     out: Option<PathBuf>,
-    /// Where to draw the room from above, .svg or .png.
+    /// Plot the room from above to this file, .svg or .png.
     #[arg(long)]
     plot: Option<PathBuf>,
 }
@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let begun = if installed.is_empty() {
         Judged::of(&task, "first guess", rig.cameras(&rig.first_guess()))
     } else {
-        Judged::of(&task, "as they hang", installed)
+        Judged::of(&task, "as installed", installed)
     };
     let mut judged = vec![begun.map_err(refuse)?];
     let found = (!arguments.no_search)

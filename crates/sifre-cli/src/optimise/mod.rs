@@ -1,6 +1,6 @@
-//! `sifre optimise`: the values of a scenario's keys that cost least.
+//! `sifre optimise`: finds the values of a scenario's keys that minimise the cost.
 //!
-//! Candidates that a search has ready at a time are flown side by side; what a search is told is told in the order of its asking, so that
+//! Candidates that a search proposes at the same time are flown side by side; it receives answers in the order of its questions, so that
 //! neither threads nor interruptions change the result. A flight that fails costs what its share of a failure is, a finite number;
 //! one that can't be flown costs [`FAILED_COST`].
 
@@ -27,24 +27,24 @@ Example:
   sifre optimise scenarios/optimise-transmission.toml --out optimum --resume    # after Ctrl-C
 
 Into the folder --out go best.toml, history.csv, history.svg, best.csv (the best flight) and best.svg; with `levels`, one of each per
-level (best-level-3.toml). state.json is what --resume goes on from.";
+level (best-level-3.toml). --resume continues from state.json.";
 
 /// Arguments of `sifre optimise`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The scenario, with a table `[optimise]`.
+    /// Scenario file with a table `[optimise]`.
     scenario: PathBuf,
-    /// The folder of the outputs.
+    /// Folder of the outputs.
     #[arg(long, short, default_value = "optimum")]
     out: PathBuf,
-    /// Go on from the state in the folder.
+    /// Resume from the state in the folder.
     #[arg(long)]
     resume: bool,
     /// Set a key of the scenario: `--set optimise.budget=500`. May be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<Setting>,
-    /// No progress bar.
+    /// Show no progress bar.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     let problem = Problem::read(&arguments.scenario, &arguments.settings)?;
     if problem.file.budget == 0 {
         return Err(Failure::Usage(
-            "optimise.budget = 0: no flight finds nothing, allow at least one".to_owned(),
+            "optimise.budget must be at least 1, got 0".to_owned(),
         ));
     }
     let path = arguments.out.join("state.json");
@@ -74,7 +74,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         (true, _) => State::read(&path, &problem)?,
         (false, true) => {
             return Err(Failure::Usage(format!(
-                "{} is there already: --resume goes on from it, another --out begins anew",
+                "{}: already exists; pass --resume to continue from it, or another --out to start again",
                 path.display()
             )));
         }
@@ -96,7 +96,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         ran?;
         if state.courses[k].stop == Some(StopReason::Interrupted) {
             report::complain(format!(
-                "interrupted after {} flights: the same command with --resume goes on from here",
+                "interrupted after {} flights; repeat the command with --resume to continue",
                 state.courses[k].rows.len()
             ));
             return Ok(Exit::Interrupted);
@@ -167,7 +167,7 @@ fn step(problem: &Problem, course: &mut Course, most: usize) -> Result<Option<St
         .map(|candidate| problem.fly(&candidate.values, level, Keep::COSTS))
         .collect();
     for (candidate, flown) in batch.iter().zip(flown) {
-        // What was interrupted is proposed again when the search goes on.
+        // An interrupted candidate is proposed again when the search resumes.
         let Some(flown) = flown else {
             return Ok(Some(StopReason::Interrupted));
         };
@@ -196,7 +196,7 @@ fn all_failed(course: &Course) -> Result<(), Failure> {
             Err(Failure::Usage(format!(
                 "all {} flights failed, the last one: {}; check the bounds and the scenario with `sifre run`",
                 course.rows.len(),
-                last.failure.as_deref().unwrap_or("its cost is no number")
+                last.failure.as_deref().unwrap_or("its cost is not finite")
             )))
         }
         _ => Ok(()),

@@ -64,7 +64,7 @@ pub(super) fn write(problem: &Problem, state: &State, folder: &Path) -> Result<O
         let (Some(outcome), Some(recording)) = (flown.outcome, flown.recording) else {
             let why = flown.failure.unwrap_or_default();
             return Err(Failure::Flight(format!(
-                "the best flight can't be flown again: {why}"
+                "the best flight cannot be repeated: {why}"
             )));
         };
         let file = |name: &str, ending: &str| folder.join(format!("{name}{}.{ending}", label(course.level)));

@@ -18,7 +18,7 @@ pub(super) struct Problem {
     pub(super) file: OptimiseFile,
     pub(super) variables: Vec<Variable>,
     pub(super) start: Vec<f64>,
-    /// The files that the scenario names, and what stands in them.
+    /// The files that the scenario names, and their contents.
     pub(super) read: BTreeMap<String, String>,
     files: Beside,
     pair: Pair,
@@ -30,18 +30,18 @@ pub(super) struct Flown {
     pub(super) outcome: Option<Outcome>,
     /// Why it failed, if it did.
     pub(super) failure: Option<String>,
-    /// Its recording, where one was asked for.
+    /// Its recording, if requested.
     pub(super) recording: Option<Recording>,
 }
 
 impl Problem {
-    /// Reads the problem of a scenario; all that can be wrong is told here, before anything is flown.
+    /// Reads the problem of a scenario; every error is reported here, before anything is flown.
     pub(super) fn read(path: &Path, settings: &[Setting]) -> Result<Self, Failure> {
         let template = varied::read(path)?.set(settings)?;
         let scenario = template.scenario();
         let file = scenario.optimise.clone().ok_or_else(|| {
             Failure::Usage(format!(
-                "{}: there is no table [optimise]; `sifre new --from optimise-transmission` has one",
+                "{}: the table [optimise] is missing; `sifre new --from optimise-transmission` prints an example",
                 path.display()
             ))
         })?;
@@ -150,7 +150,7 @@ fn starts(template: &Template, file: &OptimiseFile) -> Result<Vec<f64>, Failure>
         number.ok_or_else(|| {
             refused(
                 &v.key,
-                "the scenario has no number there to start from: check the key, or give `start`",
+                "the scenario has no number at this key to start from: check the key, or give `start`",
             )
         })
     };

@@ -1,6 +1,6 @@
 //! The state of an optimisation on disk: what was flown, and the searches as they are.
 //!
-//! It has a check sum and is replaced as a whole, so that a complete one exists at any time.
+//! It has a check sum and is replaced atomically, so that a complete one exists at any time.
 
 use super::problem::Problem;
 use crate::disk;
@@ -23,7 +23,7 @@ const LONGEST_STATE: u64 = 1 << 30;
 pub(super) struct State {
     /// Of the rest.
     check_sum: String,
-    /// What was asked; another question is another state.
+    /// The question; another question is another state.
     fingerprint: String,
     /// One search per level.
     pub(super) courses: Vec<Course>,
@@ -91,12 +91,11 @@ impl State {
     /// The state of this problem on disk.
     pub(super) fn read(path: &Path, problem: &Problem) -> Result<Self, Failure> {
         let text = disk::read_up_to(path, LONGEST_STATE)?;
-        let refuse =
-            |why: &str| Failure::Usage(format!("{}: not a state of a search: {why}", path.display()));
+        let refuse = |why: &str| Failure::Usage(format!("{}: not a saved search: {why}", path.display()));
         let state: Self = serde_json::from_str(&text).map_err(|error| refuse(&error.to_string()))?;
         if state.check_sum != state.sum().map_err(|error| refuse(&error.to_string()))? {
             return Err(refuse(
-                "it is not as it was written, its check sum differs; begin anew with another --out",
+                "it is damaged (its check sum differs); start again with another --out",
             ));
         }
         if state.fingerprint != fingerprint(problem) {
@@ -108,7 +107,7 @@ impl State {
         Ok(state)
     }
 
-    /// Writes it, whole at any time.
+    /// Writes it atomically.
     pub(super) fn write(&mut self, path: &Path) -> Result<(), Failure> {
         let refuse = |error: serde_json::Error| Failure::Write {
             path: path.to_owned(),

@@ -27,32 +27,32 @@ Example: which level knows the position error to a centimetre, and what do those
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The scenario.
+    /// Scenario file.
     scenario: PathBuf,
-    /// What is asked, as `sifre run` prints it: `alpha.position_error_rms_m`; also step metrics (`alpha.z.overshoot`) and a
-    /// station's cost (`station.phi`). The agent's name may be left out where only one has it. May be repeated.
+    /// Metric to compare, as `sifre run` prints it: `alpha.position_error_rms_m`, step metrics (`alpha.z.overshoot`) or a
+    /// station's cost (`station.phi`). The agent's name may be omitted if only one agent has the metric. May be repeated.
     #[arg(long = "metric", required = true)]
     metrics: Vec<String>,
-    /// How far from level 5 is near enough, in the metric's unit.
+    /// Allowed difference from level 5, in the metric's unit.
     #[arg(long, required_unless_present = "relative", default_value_t = 0.0)]
     tolerance: f64,
-    /// How far from level 5 is near enough, as a share of its number; added to --tolerance.
+    /// Allowed difference from level 5, as a fraction of its value; added to --tolerance.
     #[arg(long, default_value_t = 0.0)]
     relative: f64,
-    /// Cases: values of a key, all of which must agree: `--set quadrotor.alpha.wind.velocity_m_s=[0,0,0],[-5,0,0]`. May be
+    /// Values of a key, each a case that must agree: `--set quadrotor.alpha.wind.velocity_m_s=[0,0,0],[-5,0,0]`. May be
     /// repeated; all combinations are cases.
     #[arg(long = "set", value_name = "KEY=A,B,C", value_parser = axes::set)]
     sets: Vec<Axis>,
-    /// How often each flight is timed; the least time counts.
+    /// Number of timings of each flight; the shortest counts.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
     repeats: u32,
-    /// Say, too, which phenomenon makes the difference to the level below the dependable one.
+    /// Also name the phenomenon that the next level down is missing.
     #[arg(long)]
     why: bool,
-    /// The picture, .svg or .png.
+    /// Plot to this file, .svg or .png.
     #[arg(long, short)]
     plot: Option<PathBuf>,
-    /// Keep the scenario's controllers at the levels that they may fly, instead of the inversion that belongs to each.
+    /// Keep the scenario's controllers where they can fly the level, instead of using the inversion of each level.
     #[arg(long)]
     keep_controllers: bool,
 }
@@ -78,11 +78,11 @@ pub(crate) struct Evidence {
     pub(crate) cases: Vec<Case>,
     pub(crate) selection: Selection,
     pub(crate) tolerance: Tolerance,
-    /// Per level and case: how a flight ended that did not come to its end.
+    /// Per level and case: how a flight ended that did not finish.
     pub(crate) ends: Vec<Vec<Option<String>>>,
-    /// The command that says which phenomenon makes the difference; nothing where level 1 is enough.
+    /// The command that names the decisive phenomenon; nothing where level 1 is enough.
     pub(crate) hint: Option<String>,
-    /// What it would say.
+    /// What it would report.
     pub(crate) why: Option<attribute::Pair>,
     /// The metric that it is about.
     pub(crate) why_metric: String,
@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         .try_fold(1, u64::checked_mul);
     if cases.is_none_or(|cases| cases > MOST_CASES) {
         return Err(Failure::Usage(format!(
-            "--set and --metric give more than {MOST_CASES} cases: ask in parts"
+            "--set and --metric must give at most {MOST_CASES} cases: split the comparison"
         )));
     }
     let points = grid(&arguments.sets);
@@ -156,7 +156,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Every combination of the values; one without settings where there are none. The last key runs fastest.
+/// Every combination of the values; a single one without settings if no key varies. The last key runs fastest.
 fn grid(axes: &[Axis]) -> Vec<Vec<Setting>> {
     axes.iter()
         .fold(vec![Vec::new()], |points: Vec<Vec<Setting>>, axis| {
@@ -168,7 +168,7 @@ fn grid(axes: &[Axis]) -> Vec<Vec<Setting>> {
         })
 }
 
-/// A tolerance that nothing can be compared with is told before anything is flown.
+/// An invalid tolerance is reported before anything is flown.
 fn check(tolerance: Tolerance) -> Result<(), Failure> {
     let reference = Answer {
         level: Level::HIGHEST,
@@ -180,7 +180,7 @@ fn check(tolerance: Tolerance) -> Result<(), Failure> {
         .map_err(|error| Failure::Usage(error.to_string()))
 }
 
-/// A reference level that has no number has ended early; all else can't be, since levels and cases are ours.
+/// A reference level without a value has ended early; nothing else is possible, since levels and cases are ours.
 fn refused(error: &SelectionError, cases: &[Case], ends: &[Vec<Option<String>>]) -> Failure {
     let SelectionError::BadReference { case, .. } = error else {
         return Failure::Usage(error.to_string());
@@ -188,7 +188,7 @@ fn refused(error: &SelectionError, cases: &[Case], ends: &[Vec<Option<String>>])
     let metric = cases.get(*case).map_or("", |case| case.metric.as_str());
     let end = ends.last().and_then(|ends| ends.get(*case).cloned().flatten());
     Failure::Flight(format!(
-        "{} has no {metric}, so there is nothing to agree with: {}",
+        "{} has no {metric} to compare with: {}",
         Level::HIGHEST,
         end.unwrap_or_else(|| "it never settles".to_owned())
     ))

@@ -26,7 +26,7 @@ pub(super) fn text(evidence: &Evidence) -> String {
     };
     let of = |level: Level| {
         format!(
-            "{level} ({:.2} ms of computing per second, {:.1} times cheaper than {})",
+            "{level} ({:.2} ms of computing per second flown, {:.1} times cheaper than {})",
             price(level) * 1e3,
             price(Level::HIGHEST) / price(level),
             Level::HIGHEST
@@ -37,16 +37,16 @@ pub(super) fn text(evidence: &Evidence) -> String {
     text += &format!("and all levels above it agree: {}\n", of(selection.dependable));
     if selection.cheapest != selection.dependable {
         text += &format!(
-            "level {} may agree by luck: a level above it does not\n",
+            "level {} may agree by chance: a level above it does not\n",
             selection.cheapest.number()
         );
     }
     match (&evidence.why, &evidence.hint) {
         (Some(pair), _) => {
-            text += "\nwhat the level below lacks:\n";
+            text += "\nwhat the next level down is missing:\n";
             text += &attribute::as_text(&evidence.why_metric, std::slice::from_ref(pair));
         }
-        (None, Some(hint)) => text += &format!("what the level below lacks:    {hint}\n"),
+        (None, Some(hint)) => text += &format!("what the next level down is missing: {hint}\n"),
         (None, None) => {}
     }
     text
@@ -101,7 +101,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// For machines. What is no number is null.
+/// Machine-readable output. Non-finite numbers are null.
 pub(super) fn json(evidence: &Evidence) -> Value {
     let selection = &evidence.selection;
     let cases = evidence.cases.iter().map(|case| {

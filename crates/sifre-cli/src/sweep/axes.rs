@@ -97,7 +97,7 @@ pub(crate) fn draw(draws: &[&Draw], seed: u64, number: u64) -> Vec<Setting> {
     draws.iter().map(one).collect()
 }
 
-/// Reads `key=a,b,c`; values with commas in brackets are left whole.
+/// Reads `key=a,b,c`; values with commas in brackets are not split.
 pub(crate) fn set(text: &str) -> Result<Axis, String> {
     let (key, values) = key_and(text, "KEY=A,B,C")?;
     let values = match value_of(&format!("[{values}]")) {
@@ -105,7 +105,7 @@ pub(crate) fn set(text: &str) -> Result<Axis, String> {
         _ => values.split(',').map(|value| value_of(value.trim())).collect(),
     };
     if values.is_empty() {
-        return Err(format!("\"{text}\": there are no values"));
+        return Err(format!("\"{text}\": no values after the key"));
     }
     let values = Values::List(values);
     Ok(Axis { key, values })
@@ -114,7 +114,8 @@ pub(crate) fn set(text: &str) -> Result<Axis, String> {
 /// Reads `key=low:high:n`.
 pub(crate) fn range(text: &str) -> Result<Axis, String> {
     let (key, range) = key_and(text, "KEY=LOW:HIGH:N")?;
-    let wrong = || format!("\"{range}\": write LOW:HIGH:N with two numbers and a count of at least 2");
+    let wrong =
+        || format!("\"{range}\" is not a range: write LOW:HIGH:N with two numbers and a count of at least 2");
     let parts: Vec<&str> = range.split(':').collect();
     let [low, high, count] = parts[..] else {
         return Err(wrong());

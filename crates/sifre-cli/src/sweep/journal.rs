@@ -93,17 +93,17 @@ fn complete_lines(file: &mut File) -> io::Result<String> {
 }
 
 /// What to do about a journal that can't be used.
-const BEGIN_ANEW: &str = "give --restart to begin anew, or another --out";
+const BEGIN_ANEW: &str = "pass --restart to start again, or another --out";
 
 /// The rows of a journal's complete lines; an empty text has none.
 fn read(text: &str, header: &str, plan: &Plan<'_>) -> Result<Vec<Row>, String> {
     let mut lines = (1..).zip(text.lines());
-    let damaged = |number: usize| format!("line {number} is not as it was written; {BEGIN_ANEW}");
+    let damaged = |number: usize| format!("line {number} is damaged; {BEGIN_ANEW}");
     if let Some((_, first)) = lines.next() {
         match intact(first) {
             Some(found) if found == header => {}
             Some(found) if found.contains("sifre_sweep") => {
-                return Err(format!("of another sweep; {BEGIN_ANEW}"));
+                return Err(format!("it belongs to another sweep; {BEGIN_ANEW}"));
             }
             _ => return Err(damaged(1)),
         }
@@ -114,7 +114,7 @@ fn read(text: &str, header: &str, plan: &Plan<'_>) -> Result<Vec<Row>, String> {
         let mut row: Row = row.ok_or_else(|| damaged(number))?;
         if row.run >= plan.count {
             return Err(format!(
-                "line {number} has run {}, and the sweep has {}: {BEGIN_ANEW}",
+                "line {number} has run {}, but the sweep has {} runs; {BEGIN_ANEW}",
                 row.run, plan.count
             ));
         }
@@ -123,7 +123,7 @@ fn read(text: &str, header: &str, plan: &Plan<'_>) -> Result<Vec<Row>, String> {
             .contains(&row.exit_code)
         {
             return Err(format!(
-                "line {number} has the exit code {}; {BEGIN_ANEW}",
+                "line {number} has the unknown exit code {}; {BEGIN_ANEW}",
                 row.exit_code
             ));
         }

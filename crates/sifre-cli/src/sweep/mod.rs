@@ -28,7 +28,7 @@ use std::sync::Mutex;
 /// each combination.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The scenario.
+    /// Scenario file.
     scenario: PathBuf,
     /// Values of a key: `--set quadrotor.alpha.level=1,3,5`. May be repeated.
     #[arg(long = "set", value_name = "KEY=A,B,C", value_parser = axes::set)]
@@ -42,22 +42,22 @@ pub(crate) struct Arguments {
     /// A key drawn from an interval: `--uniform quadrotor.alpha.start.yaw_deg=-180:180`. May be repeated.
     #[arg(long = "uniform", value_name = "KEY=LOW:HIGH", value_parser = axes::uniform)]
     uniforms: Vec<Draw>,
-    /// Draws for each combination of the grid.
+    /// Number of draws for each combination of the grid.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     runs: u32,
     /// Seed of the draws.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// The table, .parquet or .csv.
+    /// Write the table to this file, .parquet or .csv.
     #[arg(long, short, default_value = "sweep.parquet")]
     out: PathBuf,
-    /// Threads; as many as there are cores without it.
+    /// Number of threads [default: number of cores].
     #[arg(long)]
     jobs: Option<usize>,
-    /// Begin anew, even if a journal of this sweep exists.
+    /// Start again, even if a journal of this sweep exists.
     #[arg(long)]
     restart: bool,
-    /// Most runs; their rows are held in memory until the table is written, about a kilobyte each.
+    /// Largest number of runs; their rows are held in memory until the table is written, about a kilobyte each.
     #[arg(long, value_name = "N", default_value_t = MOST_RUNS)]
     most_runs: u64,
 }
@@ -70,11 +70,9 @@ pub(crate) fn check_count(count: Option<u64>, most: u64) -> Result<u64, Failure>
     match count {
         Some(count) if count <= most => Ok(count),
         Some(count) => Err(Failure::Usage(format!(
-            "{count} runs are more than {most}: ask for fewer, or raise the limit with --most-runs {count}"
+            "at most {most} runs are allowed, got {count}: vary less, or raise the limit with --most-runs {count}"
         ))),
-        None => Err(Failure::Usage(
-            "more runs than can be counted: ask for fewer".to_owned(),
-        )),
+        None => Err(Failure::Usage("too many runs to count: vary less".to_owned())),
     }
 }
 
@@ -86,13 +84,13 @@ pub(crate) struct Row {
     /// Values of the keys that are varied, in the order of the arguments; they follow from the number.
     #[serde(skip)]
     pub(crate) inputs: Vec<toml::Value>,
-    /// How it ended, in words.
+    /// How it ended.
     pub(crate) end: String,
     /// The exit code that `sifre run` would give.
     pub(crate) exit_code: u8,
     /// When it ended, s; nothing if it could not be flown.
     pub(crate) time_s: Option<f64>,
-    /// The flight in a few numbers.
+    /// Summary metrics.
     pub(crate) metrics: Vec<(String, Option<f64>)>,
 }
 
@@ -111,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     if (rows.len() as u64) < plan.count {
         let left = plan.count - rows.len() as u64;
         report::complain(format!(
-            "interrupted with {left} of {} runs left: the same command goes on from here",
+            "interrupted with {left} of {} runs left; repeat the command to continue",
             plan.count
         ));
         return Ok(Exit::Interrupted);
@@ -168,7 +166,7 @@ impl<'a> Plan<'a> {
             count: check_count(count, arguments.most_runs)?,
             files: Beside::of(&arguments.scenario),
         };
-        // Keys that don't exist are told before anything is flown.
+        // Unknown keys are reported before anything is flown.
         plan.template.with(&plan.settings(0))?;
         Ok(plan)
     }
@@ -183,7 +181,7 @@ impl<'a> Plan<'a> {
     /// What makes this sweep another than the next: what is varied, the scenario, and the files that it or a varied key names.
     fn fingerprint(&self) -> String {
         let files = Remembering::of(&self.files);
-        // A scenario that can't be built says so when it is flown.
+        // A scenario that can't be built is reported when it is flown.
         let _ = self
             .template
             .with(&self.settings(0))
@@ -237,7 +235,7 @@ impl<'a> Plan<'a> {
         settings
     }
 
-    /// Flies all runs that the journal doesn't have; the rows that there are then, in order.
+    /// Flies all runs that the journal doesn't have; all rows then, in order.
     fn fly_all(&self, journal: Journal, jobs: Option<usize>, bar: &ProgressBar) -> Result<Vec<Row>, Failure> {
         let has: Vec<u64> = journal.rows.iter().map(|row| row.run).collect();
         let journal = Mutex::new(journal);
@@ -249,7 +247,7 @@ impl<'a> Plan<'a> {
                 return Ok(());
             };
             bar.inc(1);
-            // Another thread that panicked has left the rows before its own whole.
+            // Another thread that panicked has left the earlier rows intact.
             journal
                 .lock()
                 .unwrap_or_else(std::sync::PoisonError::into_inner)
@@ -284,7 +282,7 @@ impl<'a> Plan<'a> {
                 end: flown.ending.report.status.to_string(),
                 exit_code: Exit::from(flown.ending.end).code(),
                 time_s: Some(flown.ending.report.time_s),
-                // JSON has no number for what is not finite.
+                // JSON has no non-finite numbers.
                 metrics: flown
                     .metrics
                     .into_iter()

@@ -24,7 +24,7 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     match ending(path) {
         Some("csv" | "parquet") => Ok(()),
         _ => Err(Failure::Usage(format!(
-            "--out {}: a table ends in .csv or .parquet",
+            "--out must end in .csv or .parquet, got {}",
             path.display()
         ))),
     }
@@ -38,7 +38,7 @@ struct Column {
 
 enum Values {
     Whole(Vec<i64>),
-    /// NaN where there is none.
+    /// NaN where it is missing.
     Numbers(Vec<f64>),
     Texts(Vec<String>),
 }

@@ -38,22 +38,22 @@ deviation is known to 1/√(2N) of itself: 5 % with 200.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLE)]
 pub(crate) struct Arguments {
-    /// The scenario; at least one of its vehicles has a file with standard errors.
+    /// Scenario file; at least one of its vehicle files must state standard errors.
     scenario: PathBuf,
-    /// Vehicles drawn.
+    /// Number of vehicles drawn.
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(2..))]
     runs: u32,
     /// Seed of the draws.
     #[arg(long, default_value_t = 0)]
     seed: u64,
     /// Set a key of the scenario: `--set quadrotor.alpha.vehicle=identified.toml`. May be repeated. A parameter that
-    /// is set has no standard error any more.
+    /// is set has no standard error.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
     settings: Vec<Setting>,
-    /// Threads; as many as there are cores without it.
+    /// Number of threads [default: number of cores].
     #[arg(long)]
     jobs: Option<usize>,
-    /// Most runs; their numbers are held in memory, about a kilobyte each.
+    /// Largest number of runs; their metrics are held in memory, about a kilobyte each.
     #[arg(long, value_name = "N", default_value_t = MOST_RUNS)]
     most_runs: u64,
 }
@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         End::Interrupted => return Ok(Exit::Interrupted),
         _ => {
             return Err(Failure::Flight(format!(
-                "the nominal flight has to come to its end: {}",
+                "the nominal flight must finish: {}",
                 nominal.ending
             )));
         }
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
     }
     if left > 0 {
         report::complain(format!(
-            "interrupted with {left} of {} flights left: this is what the others say",
+            "interrupted with {left} of {} flights left; the result is from the others",
             jobs.len()
         ));
         return Ok(Exit::Interrupted);
@@ -230,7 +230,7 @@ impl Ensemble {
 
 /// What to do where nothing is uncertain.
 const NOTHING_UNCERTAIN: &str = "\
-no number of the scenario's vehicles has a standard error, so there is nothing to carry over. Files with standard errors come from \
+no number of the scenario's vehicles has a standard error, so there is nothing to propagate. Files with standard errors come from \
 identification (`identify`, or `cargo xtask identify` for a whole vehicle); name one with --set quadrotor.NAME.vehicle=FILE. By hand, a \
 number is written { value = 1.4, source = \"scales\", standard_error = 0.01 }";
 

@@ -49,7 +49,7 @@ pub(super) fn text(ensemble: &Ensemble, answer: &Answer) -> String {
         "95 % from",
         "to",
         "sd, first order",
-        "most of it by",
+        "mostly due to",
     ]);
     for summary in &answer.metrics {
         let of = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.5}"));
@@ -69,7 +69,7 @@ pub(super) fn text(ensemble: &Ensemble, answer: &Answer) -> String {
         column.set_cell_alignment(CellAlignment::Right);
     }
     let mut text = format!(
-        "{}: vehicles within the standard errors of {} numbers: {} flown, {} ended early, {} could not be flown\n{table}\n",
+        "{}: {} uncertain numbers; vehicles drawn: {} flown, {} ended early, {} could not be flown\n{table}\n",
         ensemble.scenario.name,
         ensemble.numbers.len(),
         answer.done,
@@ -77,7 +77,7 @@ pub(super) fn text(ensemble: &Ensemble, answer: &Answer) -> String {
         answer.refused
     );
     if let Some(trouble) = &answer.first_trouble {
-        text += &format!("the first that did not come to its end: {trouble}\n");
+        text += &format!("first run that did not finish: {trouble}\n");
     }
     text
 }

@@ -10,16 +10,17 @@ fn exact_bad_scenarios_exit_with_2() {
     folder
         .run(&["run", "missing.toml"])
         .exits(2)
-        .says(&["missing.toml", "can't be read"]);
+        .says(&["missing.toml", "cannot be read"]);
     folder.write("typo.toml", "name = \"x\"\nduration = 1");
-    folder
-        .run(&["run", "typo.toml"])
-        .exits(2)
-        .says(&["typo.toml:2:1", "no key `duration`", "duration_s"]);
+    folder.run(&["run", "typo.toml"]).exits(2).says(&[
+        "typo.toml:2:1",
+        "unknown key `duration`",
+        "duration_s",
+    ]);
     let set = |setting: &str| folder.run(&["run", "-q", "--no-output", &ready("hover"), "--set", setting]);
     set("duration_s=-1")
         .exits(2)
-        .says(&["duration_s = -1", "after the start"]);
+        .says(&["`duration_s` = -1", "must be positive"]);
     set("quadrotor.bravo.level=5")
         .exits(2)
         .says(&["no `bravo`", "alpha"]);
@@ -30,14 +31,12 @@ fn exact_bad_scenarios_exit_with_2() {
     set("quadrotor.alpha.step_s=0.00033333333333")
         .exits(2)
         .says(&["nanoseconds"]);
-    set("duration_s=1e300")
-        .exits(2)
-        .says(&["duration_s = 1e300", "after the start"]);
+    set("duration_s=1e300").exits(2).says(&["`duration_s` = 1e300"]);
     set("stop.outside={from_m=[1,-5,-5],to_m=[-1,5,0]}")
         .exits(2)
-        .says(&["stop.outside: from_m[0] = 1 must be less than to_m[0] = -1"]);
+        .says(&["stop.outside: `from_m[0]` must be less than `to_m[0]`, got 1 and -1"]);
     set("level").exits(2).says(&["key=value"]);
-    // A slow agent is told of, and flown.
+    // A slow agent is reported, and flown.
     set("quadrotor.alpha.step_s=20")
         .exits(0)
         .says(&["note: \"alpha\" decides once and never moves"]);
@@ -47,7 +46,7 @@ fn exact_bad_scenarios_exit_with_2() {
     assert_eq!(ran.json()["exit_code"], 2);
 }
 
-/// A vehicle of one's own is one file beside the scenario.
+/// A vehicle of your own is one file beside the scenario.
 #[test]
 fn exact_an_own_drone_is_a_file() {
     let folder = Folder::new("own");
@@ -78,11 +77,11 @@ fn exact_outputs_that_cannot_be_written_exit_with_3() {
     let out = |path: &str| folder.run(&["run", "-q", &ready("hover"), "--out", path]);
     out("no/such/folder/a.csv")
         .exits(3)
-        .says(&["no/such/folder/a.csv", "can't be written"]);
+        .says(&["no/such/folder/a.csv", "cannot be written"]);
     folder
         .run(&["new", "no/such/folder/a.toml"])
         .exits(3)
-        .says(&["can't be written"]);
+        .says(&["cannot be written"]);
 }
 
 /// An input is never written over, and what to write is never guessed.

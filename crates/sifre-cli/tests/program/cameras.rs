@@ -73,7 +73,7 @@ fn exact_rooms_that_are_wrong_exit_with_2() {
         &["bad.toml", "wdith_m", "width_m"],
     );
     says("needed = 3", "needed = 0", &["at least one camera must see"]);
-    says("cameras = 8", "cameras = 0", &["1 to 1024 cameras, not 0"]);
+    says("cameras = 8", "cameras = 0", &["1 to 1024 cameras, got 0"]);
     says("most_height_m = 3.8", "most_height_m = 5.0", &["5 m", "4 m"]);
     says(
         "evaluations = 4000",
@@ -83,15 +83,15 @@ fn exact_rooms_that_are_wrong_exit_with_2() {
     says(
         "centre_m = [0.0, 0.0, -1.5]",
         "centre_m = [0.0, 0.0, 1.5]",
-        &["outside the room"],
+        &["inside the room"],
     );
-    says("spacing_m = 0.2", "spacing_m = 1e-9", &["larger ones"]);
+    says("spacing_m = 0.2", "spacing_m = 1e-9", &["larger cells"]);
     let camera = "[[camera]]\nposition_m = [9, 0, -2]\nazimuth_deg = 180\nelevation_deg = 0\n";
     folder.write("out.toml", text.clone() + camera);
     folder
         .run(&["cameras", "out.toml"])
         .exits(2)
-        .says(&["camera 0 stands at", "outside the room"]);
+        .says(&["camera 0 must be", "inside the room"]);
     folder.run(&["cameras"]).exits(2);
     folder.run(&["cameras", "room.toml", "--plot", "a.pdf"]).exits(2);
     folder

@@ -45,7 +45,7 @@ fn exact_run_speaks_json_and_obeys_its_options() {
         "--set",
         "quadrotor.alpha.level=3",
     ]);
-    let json = ran.exits(0).says(&["does not feel it"]).json();
+    let json = ran.exits(0).says(&["is not affected by it"]).json();
     assert_eq!(
         (json["exit_code"].as_u64(), json["time_s"].as_f64()),
         (Some(0), Some(12.0))
@@ -186,7 +186,7 @@ fn exact_the_doctor_finds_all_well() {
     let json = folder.run(&["doctor", "--json"]).exits(0).json();
     assert_eq!(json["sound"], true);
     let text = folder.run(&["doctor"]).exits(0).text();
-    assert!(text.contains("all is well"), "{text}");
+    assert!(text.contains("all checks passed"), "{text}");
 }
 
 /// Level 5 differs from itself by nothing, and from the linear one by more than from level 4.

@@ -1,4 +1,4 @@
-//! Ctrl-C: what was recorded stays readable, and the exit code says so.
+//! Ctrl-C: what was recorded stays readable, and the exit code reports it.
 #![cfg(unix)]
 
 use crate::saved::rows;
@@ -77,7 +77,7 @@ fn exact_an_interrupted_flight_is_readable() {
     }
 }
 
-/// A flight interrupted anywhere goes on to the same bytes.
+/// A flight interrupted anywhere continues to the same bytes.
 #[test]
 fn exact_an_interrupted_flight_goes_on() {
     let folder = Folder::new("interrupted-saved");
@@ -100,7 +100,7 @@ fn exact_an_interrupted_flight_goes_on() {
     assert!(format!("{first}{}", rows(&second)) == read("whole.csv"));
 }
 
-/// An interrupted sweep goes on where it was, and its table is that of one that was not interrupted.
+/// An interrupted sweep resumes where it stopped, and its table is that of one that was not interrupted.
 #[test]
 fn exact_an_interrupted_sweep_goes_on() {
     let folder = Folder::new("resumed");
@@ -144,7 +144,7 @@ fn exact_an_interrupted_sweep_goes_on() {
     assert!(!folder.path("pieces.csv.journal").exists());
 }
 
-/// Ctrl-C keeps what was flown, and the search goes on from it.
+/// Ctrl-C keeps what was flown, and the search resumes from it.
 #[test]
 fn exact_an_interrupted_optimisation_goes_on() {
     let folder = Folder::new("interrupted-search");

@@ -162,15 +162,15 @@ fn exact_bad_problems_exit_with_2() {
         &variable("key = \"quadrotor.bravo.reference.x_0_m\", lower = 1, upper = 9, start = 5"),
         &["optimise.variables", "no `bravo`", "alpha"],
     );
-    refuses("optimise.budget=0", &["optimise.budget = 0"]);
+    refuses("optimise.budget=0", &["optimise.budget must be at least 1"]);
     refuses("optimise.station=nobody", &["nobody", "station"]);
-    refuses("optimise.quadrotor=station", &["station", "no quadrotor"]);
+    refuses("optimise.quadrotor=station", &["unknown quadrotor \"station\""]);
     refuses("optimise.weights.range=-1", &["range"]);
     refuses("optimise.weights.charm=1", &["charm"]);
     folder
         .run(&["optimise", &ready("hover")])
         .exits(2)
-        .says(&["no table [optimise]"]);
+        .says(&["the table [optimise] is missing"]);
     // Every flight falls at once.
     let falls = "quadrotor.alpha.command_offsets=[{ from_s = 0, duty = [-1, -1, -1, -1] }]";
     optimise(

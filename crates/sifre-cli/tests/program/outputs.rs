@@ -265,7 +265,7 @@ fn exact_a_scenario_replaces_no_file_of_another_kind() {
     };
     flown(&["--set", "output.path=letter.csv"])
         .exits(2)
-        .says(&["letter.csv: exists and is no recording"]);
+        .says(&["letter.csv: already exists and is not a recording"]);
     assert_eq!(
         fs::read_to_string(folder.path("letter.csv")).unwrap(),
         "Dear reader,"
@@ -394,9 +394,9 @@ fn exact_tampered_journals_are_refused() {
         (row(&text), text + "\n")
     };
     for (added, part) in [
-        (with(7, 0).1, "not as it was written"),
-        (with(2000, 0).0, "has run 2000, and the sweep has 2000"),
-        (with(7, 90).0, "has the exit code 90"),
+        (with(7, 0).1, "is damaged"),
+        (with(2000, 0).0, "has run 2000, but the sweep has 2000 runs"),
+        (with(7, 90).0, "has the unknown exit code 90"),
     ] {
         let tampered = journal.clone() + &added;
         fs::write(folder.path("t.csv.journal"), &tampered).unwrap();
@@ -412,7 +412,7 @@ fn exact_tampered_journals_are_refused() {
     let changed = journal.replacen("\"exit_code\":", "\"exit_code\":1", 1);
     assert_ne!(changed, journal);
     fs::write(folder.path("t.csv.journal"), &changed).unwrap();
-    folder.run(&sweep).exits(2).says(&["not as it was written"]);
+    folder.run(&sweep).exits(2).says(&["is damaged"]);
 }
 
 #[test]
@@ -448,15 +448,15 @@ fn exact_counts_have_limits_that_can_be_raised() {
     for (arguments, parts) in [
         (
             &["sweep", "s.toml", "--range", "duration_s=1:2:99999999"][..],
-            &["99999999 runs", "--most-runs 99999999"][..],
+            &["got 99999999", "--most-runs 99999999"][..],
         ),
         (
             &["sweep", "s.toml", "--runs", "4294967295"],
-            &["4294967295 runs", "--most-runs"],
+            &["got 4294967295", "--most-runs"],
         ),
         (
             &["uncertainty", "s.toml", "--runs", "4294967295"],
-            &["4294967295 runs", "--most-runs"],
+            &["got 4294967295", "--most-runs"],
         ),
     ] {
         folder.run(arguments).exits(2).says(parts);
@@ -473,7 +473,7 @@ fn exact_counts_have_limits_that_can_be_raised() {
     folder
         .run(&[&sweep[..], &["2"]].concat())
         .exits(2)
-        .says(&["3 runs are more than 2"]);
+        .says(&["at most 2 runs are allowed, got 3"]);
     folder.run(&[&sweep[..], &["3"]].concat()).exits(0);
     #[cfg(unix)]
     folder

@@ -165,7 +165,7 @@ fn exact_questions_without_an_answer_are_refused() {
     };
     attribute(&["--from", "3", "--to", "2"])
         .exits(2)
-        .says(&["--from 3 --to 2"]);
+        .says(&["above --from 3, got 2"]);
     attribute(&["--from", "6"]).exits(2);
     attribute(&["--to", "3"]).exits(2);
 }

@@ -1,4 +1,4 @@
-//! Flights saved and gone on with.
+//! Flights saved and resumed.
 
 use crate::support::{Folder, ready};
 use quad_dynamics::vehicle::builtin::CRAZYFLIE_TOML;
@@ -59,29 +59,29 @@ fn exact_what_can_not_go_on_is_told() {
     let later = ["--set", "duration_s=100"];
     on(&[&["flight.json", "-o", "a.csv"], &later[..]].concat())
         .exits(2)
-        .says(&["a.csv is there already", "--out"]);
+        .says(&["a.csv: already exists", "--out"]);
     on(&[&["a.csv", "--no-output"], &later[..]].concat())
         .exits(2)
         .says(&["a.csv: not a saved flight"]);
     on(&[&["nowhere.json", "--no-output"], &later[..]].concat())
         .exits(2)
-        .says(&["nowhere.json: can't be read"]);
+        .says(&["nowhere.json: cannot be read"]);
     let other = ready("two-quadrotors");
     folder
         .run(&["run", "-q", &other, "--no-output", "--resume", "flight.json"])
         .exits(2)
-        .says(&["can't go on in this scenario"]);
+        .says(&["can't be resumed in this scenario"]);
     // Before the flight, not after it.
     folder
         .run(&["run", "-q", &hover, "-o", "b.csv", "--save", "no/folder.json"])
         .exits(3)
-        .says(&["no/folder.json: can't be written"]);
+        .says(&["no/folder.json: cannot be written"]);
     assert!(!folder.path("b.csv").exists());
 }
 
-/// Agents go on as they were; a level that the scenario gives for the start is told of.
+/// Agents resume from their saved states; a level that the scenario gives for the start is reported as ignored.
 #[test]
-fn exact_a_level_of_the_start_is_told_of() {
+fn exact_a_level_of_the_start_is_reported() {
     let folder = Folder::new("saved-level");
     let hover = ready("hover");
     let fly = |more: &[&str]| folder.run(&[&["run", "-q", &hover], more].concat()).exits(0);
@@ -94,7 +94,7 @@ fn exact_a_level_of_the_start_is_told_of() {
         "quadrotor.alpha.level=3",
     ]);
     let on = ["-o", "b.csv", "--resume", "a.json", "--set", "duration_s=11"];
-    fly(&on).says(&["\"alpha\" goes on at level 3, where it was; `level = 5` is that of the start"]);
+    fly(&on).says(&["\"alpha\" resumes at level 3, its saved level; `level = 5` applies to the start only"]);
 }
 
 /// Another vehicle, other agents, a changed number, another format: nothing is flown.
@@ -114,9 +114,9 @@ fn exact_what_the_flight_was_not_saved_from_is_refused() {
     on(&[]).exits(0);
     on(&["--set", "quadrotor.alpha.reference.position_m=[1, 0, -2]"])
         .exits(2)
-        .says(&["flight.json", "can't go on in this scenario", "its agents"]);
+        .says(&["flight.json", "can't be resumed in this scenario", "its agents"]);
     folder.write("drone.toml", CRAZYFLIE_TOML.replace("0.027", "0.028"));
-    on(&[]).exits(2).says(&["drone.toml is not as it was"]);
+    on(&[]).exits(2).says(&["drone.toml has changed"]);
     folder.write("drone.toml", CRAZYFLIE_TOML);
     let whole = fs::read_to_string(folder.path("flight.json")).unwrap();
     let later = whole.replace("\"time_ns\":500000000", "\"time_ns\":600000000");

@@ -166,7 +166,7 @@ fn exact_what_can_not_be_flown_is_a_row_and_all_of_it_an_error() {
     folder
         .run(&["sweep", &hover, "--range", "duration=1:2:3"])
         .exits(2)
-        .says(&["no key `duration`"]);
+        .says(&["unknown key `duration`"]);
 }
 
 #[test]

@@ -117,7 +117,7 @@ fn exact_refusals_tell_what_to_do() {
     folder
         .run(&["uncertainty", "up.toml", "--set", low])
         .exits(1)
-        .says(&["the nominal flight has to come to its end"]);
+        .says(&["the nominal flight must finish"]);
     folder.run(&["uncertainty", "up.toml", "--runs", "1"]).exits(2);
     folder
         .run(&["uncertainty", &ready("hover"), "--set", "quadrotor.alpha.level=9"])

@@ -120,7 +120,7 @@ impl Recording {
         Self::recover_csv(from)?.whole()
     }
 
-    /// Reads what is whole of what a [`CsvBox`] wrote.
+    /// Reads the complete rows of what a [`CsvBox`] wrote.
     ///
     /// # Errors
     /// If there is no description of the channels.

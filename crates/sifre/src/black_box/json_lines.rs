@@ -5,7 +5,7 @@
 //! {"time_ns":0,"values":[0.5]}
 //! ```
 //!
-//! Numbers come back bit for bit; what JSON has no number for is written as [`Exact`] does.
+//! Numbers come back bit for bit; non-finite numbers, which JSON does not have, are written as by [`Exact`].
 
 use super::{BlackBox, BlackBoxError, Channel, Header, Recording, Recovered};
 use crate::exact::{Exact, plain};
@@ -93,7 +93,7 @@ impl Recording {
         Self::recover_json_lines(from)?.whole()
     }
 
-    /// Reads what is whole of what a [`JsonLinesBox`] wrote.
+    /// Reads the complete rows of what a [`JsonLinesBox`] wrote.
     ///
     /// # Errors
     /// If there is no description of the channels.

@@ -41,7 +41,7 @@ use std::any::Any;
 
 /// Where the rows of a recorder go.
 pub trait BlackBox: Any + Send {
-    /// Told once, before the first row: what the columns are.
+    /// Called once, before the first row, with the columns.
     ///
     /// # Errors
     /// If it can't be written.
@@ -53,7 +53,7 @@ pub trait BlackBox: Any + Send {
     /// If it can't be written.
     fn record(&mut self, time_ns: u64, row: &[f64]) -> Result<(), BlackBoxError>;
 
-    /// Told once, after the last row: writes what is still in memory.
+    /// Called once, after the last row: writes what is still in memory.
     ///
     /// # Errors
     /// If it can't be written.
@@ -84,8 +84,8 @@ pub enum BlackBoxError {
     /// A Parquet file without its end.
     #[cfg(feature = "parquet")]
     #[error(
-        "no finished Parquet file ({0}); one can be read only once its end is written, also by Ctrl-C, but not after a kill or on a full \
-         disk: CSV and JSON lines keep every whole row"
+        "not a finished Parquet file ({0}): such a file can be read only once it is finished, which Ctrl-C still does but a kill or a full \
+         disk does not; CSV and JSON Lines keep every complete row"
     )]
     Unfinished(parquet::errors::ParquetError),
     /// A Parquet file whose parts contradict each other.
@@ -115,7 +115,9 @@ pub enum BlackBoxError {
         found: u32,
     },
     /// A row with too many or too few numbers.
-    #[error("row {row} of the recording has {found} numbers, there are {expected} channels")]
+    #[error(
+        "row {row} of the recording has {found} numbers, expected one for each of the {expected} channels"
+    )]
     RowLength {
         /// The row, from 1.
         row: usize,
@@ -125,20 +127,20 @@ pub enum BlackBoxError {
         found: usize,
     },
     /// A last row without the end of its line: its last number may lack digits.
-    #[error("row {row} of the recording is cut off; the rows before it are whole")]
+    #[error("row {row} of the recording is cut off; the rows before it are complete")]
     CutOff {
         /// The row, from 1.
         row: usize,
     },
     /// A selection that selects nothing.
-    #[error("no channel is called \"{pattern}\"; there are {known}")]
+    #[error("unknown channel \"{pattern}\"; known: {known}")]
     NothingSelected {
         /// The pattern that fits no channel.
         pattern: String,
         /// The first of the channels there are.
         known: String,
     },
-    /// Something that is no number.
+    /// Something that is not a number.
     #[error("row {row} of the recording: \"{text}\" is not a {expected}")]
     NotANumber {
         /// The row, from 1.

@@ -53,7 +53,7 @@ impl<W: Write + Send> ParquetBox<W> {
         }
     }
 
-    /// What it wrote to, with the whole file in it.
+    /// What it wrote to, with the complete file in it.
     ///
     /// # Errors
     /// If the rest can't be written, or an error came before.

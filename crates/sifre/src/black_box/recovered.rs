@@ -1,6 +1,6 @@
-//! What is whole of a damaged recording: the power went, the disk was full, the program was killed.
+//! The readable part of a damaged recording, after a power cut, on a full disk or after a kill.
 //!
-//! CSV and JSON lines are whole up to the row that was being written, Parquet up to the last sound row group; a
+//! CSV and JSON lines are complete up to the row that was being written, Parquet up to the last sound row group; a
 //! Parquet file without its end has lost its description, and can't be read at all.
 
 use super::{BlackBoxError, Recording};
@@ -11,7 +11,7 @@ use std::io::Read;
 pub struct Recovered {
     /// All rows before the damage.
     pub recording: Recording,
-    /// What stopped the reading; `None` if the recording is whole.
+    /// What stopped the reading; `None` if the recording is complete.
     pub damage: Option<BlackBoxError>,
 }
 
@@ -22,7 +22,7 @@ impl Recovered {
         Self { recording, damage }
     }
 
-    /// The recording if it is whole.
+    /// The recording if it is complete.
     ///
     /// # Errors
     /// The damage.

@@ -1,4 +1,4 @@
-//! A black box that is told some of the channels only.
+//! A black box that receives only some of the channels.
 
 use super::{BlackBox, BlackBoxError, Channel};
 
@@ -8,7 +8,7 @@ const NAMED: usize = 8;
 /// Which channels: names with `*` for any run of characters, as in `alpha.*` or `*.position.z`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
-    /// A channel is selected if one of these fits; all are if there are none.
+    /// A channel is selected if one of these fits; all are if the list is empty.
     pub patterns: Vec<String>,
 }
 

@@ -10,7 +10,7 @@
 //!
 //! Nothing that an agent does at an instant is visible to another before the first one's next instant, so neither the
 //! order of agents nor threads matter. Runs end at a time, at a [`StopCondition`], where an agent diverges, or where
-//! the [`Observer`] says so; they can always be continued, and [saved](Engine::save) and
+//! the [`Observer`] asks for it; they can always be continued, and [saved](Engine::save) and
 //! [resumed](Engine::resume), bit for bit.
 
 mod group;

@@ -82,7 +82,7 @@ impl Engine {
         stop
     }
 
-    /// The agents due publish. What is not finite or not valid is not published: the last state that was remains.
+    /// The agents due publish. An invalid state is not published: the last valid one remains.
     fn publish(&mut self) -> Option<RunStatus> {
         let mut diverged: Option<(usize, StepSize, Invalid)> = None;
         for group in self.groups.iter().filter(|group| group.next_ns == self.now_ns) {

@@ -121,7 +121,7 @@ impl Engine {
         })
     }
 
-    /// The simulation of these agents, put together as they were at first, going on from a snapshot.
+    /// The simulation of these agents, put together as they were at first, resuming from a snapshot.
     ///
     /// # Errors
     /// Agents that can't be simulated, as [`Engine::new`]; or other agents than the snapshot's.

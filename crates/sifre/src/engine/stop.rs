@@ -176,7 +176,7 @@ pub enum RunStatus {
         /// The last state that was valid; `None` if there was none from the start.
         last: Option<Box<LastSeen>>,
     },
-    /// The filter of an agent's estimator refused to go on; it keeps its last good belief.
+    /// The filter of an agent's estimator refused to continue; it keeps its last good belief.
     EstimatorFailed {
         /// The agent; the first by name if there are several.
         agent: String,
@@ -185,7 +185,7 @@ pub enum RunStatus {
     },
     /// The observer asked for it.
     Interrupted,
-    /// A black box failed; the simulation itself is sound and can go on without it.
+    /// A black box failed; the simulation itself is sound and can continue without it.
     RecordingFailed {
         /// Why.
         source: BlackBoxError,
@@ -253,13 +253,13 @@ pub struct Progress {
 
 /// Watches a run and may end it. `()` watches nothing; a closure that takes a [`Progress`] will do.
 pub trait Observer {
-    /// Told every [`PROGRESS_EVERY`] instants; [`ControlFlow::Break`] ends the run (after Ctrl-C, say), with all that
-    /// was computed kept and the simulation ready to go on.
+    /// Called every [`PROGRESS_EVERY`] instants; [`ControlFlow::Break`] ends the run (after Ctrl-C, say), with all that
+    /// was computed kept and the simulation ready to continue.
     fn progress(&mut self, _progress: &Progress) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    /// Told what happens when it happens.
+    /// Called for each event when it happens.
     fn event(&mut self, _event: &Event) {}
 }
 

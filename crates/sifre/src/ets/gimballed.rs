@@ -48,7 +48,7 @@ struct Timing {
     step: StepSize,
 }
 
-/// All that a station needs to go on.
+/// Everything a station needs to resume.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Memory {

@@ -5,7 +5,7 @@
 //! ω_air      = rotation of the gusts                     where turbulence is on, unless it is left out
 //! ```
 //!
-//! Velocities of the air in W: a wind of `[-5, 0, 0]` blows to the south and pushes to the south. How gusts go on: `gusts.rs`.
+//! Velocities of the air in W: a wind of `[-5, 0, 0]` blows to the south and pushes to the south. How gusts continue: `gusts.rs`.
 
 use super::gusts::{Normals, PROCESS_NOISE_STREAM};
 use crate::agent::Moment;
@@ -27,7 +27,7 @@ pub struct Wind {
     pub constant_m_s: [f64; 3],
     /// Steps: a wind that is added from its time on, m/s in W.
     pub steps_m_s: Schedule<[f64; 3]>,
-    /// How the mean wind grows with height; the same at all heights unless told. Felt where `wind-shear` is on.
+    /// How the mean wind grows with height; the same at all heights by default. Felt where `wind-shear` is on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear: Option<Shear>,
     /// Gusts about the mean wind. Felt where `turbulence` is on.
@@ -43,7 +43,7 @@ pub struct Turbulence {
     pub w20_m_s: f64,
     /// Seed of the gusts.
     pub seed: u64,
-    /// Which gusts there are; all unless told.
+    /// Which gusts there are; all by default.
     #[serde(default)]
     pub gusts: Gusts,
 }
@@ -76,7 +76,7 @@ pub struct ProcessNoiseSource {
 pub enum AirError {
     /// A wind that no one has seen.
     #[error(
-        "a wind of {speed_m_s} m/s: it must be a number up to {STRONGEST_WIND_M_S} m/s (is it in another unit?)"
+        "the wind must be finite and at most {STRONGEST_WIND_M_S} m/s, got {speed_m_s} m/s; is it in another unit?"
     )]
     TooStrong {
         /// Its speed, m/s.
@@ -86,13 +86,15 @@ pub enum AirError {
     #[error(transparent)]
     Shear(#[from] quad_dynamics::ShearError),
     /// An intensity below zero or not finite.
-    #[error("an intensity of the process noise of {value}: it must be a number, 0 or more")]
+    #[error("the intensity of the process noise must be finite and not negative, got {value}")]
     Intensity {
         /// The number.
         value: f64,
     },
     /// A phenomenon is switched on that nothing feeds.
-    #[error("{phenomenon} is switched on, but the script has no {wanted}: add it or switch {phenomenon} off")]
+    #[error(
+        "{phenomenon} is switched on, but the script has no {wanted}: add it, or switch {phenomenon} off"
+    )]
     NoSource {
         /// The phenomenon.
         phenomenon: Phenomenon,
@@ -101,7 +103,7 @@ pub enum AirError {
     },
     /// A start below the ground where a phenomenon needs a height above it.
     #[error(
-        "it starts at an altitude of {altitude_m} m, below the ground (z of W points down), where {phenomenon} has no meaning"
+        "with {phenomenon} it must start above the ground (z of W points down), got an altitude of {altitude_m} m"
     )]
     BelowGround {
         /// The altitude, −z, m.

@@ -1,14 +1,14 @@
 //! An estimator on board: what a quadrotor's pilot may know of its flight.
 //!
 //! ```text
-//! at t_k   predict   the filter goes on from t_k-1 with the commands that the pilot sent, in still air
+//! at t_k   predict   the filter resumes from t_k-1 with the commands that the pilot sent, in still air
 //!          sense     the sensors read the flight as it is, with random numbers of stream k
 //!          update    what has arrived is filed at the instant at which it was taken
 //!          pilot     sees what the filter believes (in the loop) or the flight (beside it)
 //! ```
 //!
 //! The filter knows the commands, the vehicle that it believes in and where it was put down (rightly or wrongly, [`InitialError`]); it knows neither wind nor
-//! disturbances of the commands: its disturbance of the specific force is there for them. What is published is the flight,
+//! disturbances of the commands: its estimated disturbance of the specific force accounts for them. What is published is the flight,
 //! not the estimate, so others and guidance that looks at others or at itself (`Facing`) see the truth.
 //!
 //! Filters work on matrices of run-time size: a step with an estimator allocates, a step without does not. A filter that
@@ -51,7 +51,7 @@ pub enum EstimateUse {
     /// The pilot sees it instead of the flight.
     #[default]
     InLoop,
-    /// It is recorded; the pilot sees the flight, which goes on as without an estimator, bit for bit.
+    /// The estimate is recorded; the pilot sees the true state, and the flight is bit-identical to one without an estimator.
     Beside,
 }
 
@@ -60,7 +60,7 @@ pub enum EstimateUse {
 pub struct Estimation {
     /// The level of the filter's model, and what is switched on in it.
     pub level: LevelChoice,
-    /// The vehicle that the filter believes in; the one that flies unless told.
+    /// The vehicle in the filter's model; by default the one that flies.
     pub vehicle: Option<Arc<Vehicle>>,
     /// The sensors.
     pub sensors: SensorSuite,
@@ -70,9 +70,9 @@ pub struct Estimation {
     pub used: EstimateUse,
     /// What disturbs the filter's model.
     pub noise: ProcessNoise,
-    /// What it is told wrong of the flight that it begins with; nothing unless told.
+    /// The error of its initial estimate; none by default.
     pub error: InitialError,
-    /// How uncertain it says to be of what it is told.
+    /// Its stated initial uncertainty.
     pub uncertainty: InitialUncertainty,
     /// Seed of biases and noise of the sensors, and of errors that are drawn.
     pub seed: u64,
@@ -100,7 +100,7 @@ impl Estimation {
         }
     }
 
-    /// What the filter is told of a flight.
+    /// The filter's initial estimate of a flight.
     fn told(&self, flight: &Snapshot<f64>) -> Snapshot<f64> {
         // Before the stream that the sensors are turned on with; no run has that many steps.
         self.error.told(flight, &mut random(self.seed, SENSOR_STREAM - 2))
@@ -116,7 +116,7 @@ pub enum EstimationSetupError {
     /// It can't begin.
     #[error("the estimator: {0}")]
     Filter(#[from] EstimationError),
-    /// What it is told is none.
+    /// The initial error is invalid.
     #[error("the estimator: {0}")]
     Error(#[from] InitialErrorFault),
     /// The pilot can't fly by what it knows.
@@ -136,7 +136,7 @@ pub(super) struct Estimating {
     step_ns: u64,
 }
 
-/// All that it needs to go on.
+/// Everything it needs to resume.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct EstimatingMemory {
@@ -189,7 +189,7 @@ impl Estimating {
         self.step_ns = step_ns;
     }
 
-    /// The flight is put elsewhere, and the filter told.
+    /// The flight is moved elsewhere, and the filter with it.
     pub(super) fn put_in_flight(
         &mut self,
         quadrotor: &AnyQuadrotor<f64>,

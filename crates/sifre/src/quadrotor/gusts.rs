@@ -1,4 +1,4 @@
-//! The gusts about one quadrotor as they go on: velocity and rotation of the air.
+//! The gusts about one quadrotor as they continue: velocity and rotation of the air.
 //!
 //! Gusts lie along and across the horizontal mean wind, to the north in still air, and turn the air about these axes; their
 //! field is flown through at the airspeed against the mean wind. Step n draws from stream n of a ChaCha8 generator: a
@@ -60,7 +60,7 @@ fn turbulence_at(turbulence: &Turbulence, height_m: f64) -> Dryden<f64> {
 }
 
 impl Air {
-    /// The air at the start of a vehicle at some height above the ground, m: turbulence that has gone on for ever.
+    /// The air at the start of a vehicle at some height above the ground, m: stationary turbulence.
     pub(super) fn new(wind: &Wind, vehicle: &Vehicle, height_m: f64) -> Self {
         let seed = wind.turbulence.map_or(0, |t| t.seed);
         // The last streams before those of the process noise and the rotation; no run has that many steps.
@@ -101,7 +101,7 @@ impl Air {
         }
     }
 
-    /// The gusts go on over the step that begins at this instant.
+    /// The gusts continue over the step that begins at this instant.
     pub(super) fn advance(
         &mut self,
         wind: &Wind,
@@ -145,7 +145,7 @@ impl Air {
         [along, a, b, c, d, roll, lagged_down, lagged_across]
     }
 
-    /// Goes on from what was remembered.
+    /// Resumes from its memory.
     pub(super) fn recall(&mut self, memory: [f64; MEMORY]) {
         let [along, a, b, c, d, roll, lagged_down, lagged_across] = memory;
         self.gusts = DrydenState {

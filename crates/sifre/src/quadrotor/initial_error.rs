@@ -1,4 +1,4 @@
-//! What a filter is told wrong of the flight that it begins with.
+//! The error of a filter's initial estimate.
 //!
 //! ```text
 //! r̂ = r + e_r,  v̂ = v + e_v    along W
@@ -42,7 +42,7 @@ pub enum VectorError {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum InitialErrorFault {
     /// An error that is not finite.
-    #[error("the initial error of the {what} must be finite, not {value}")]
+    #[error("the initial error of the {what} must be finite, got {value}")]
     NotFinite {
         /// What it is the error of.
         what: &'static str,
@@ -51,7 +51,7 @@ pub enum InitialErrorFault {
     },
     /// A standard deviation below zero or not finite.
     #[error(
-        "the standard deviation of the {what}'s initial error must be finite and not negative, not {value}"
+        "the standard deviation of the {what}'s initial error must be finite and not negative, got {value}"
     )]
     Deviation {
         /// What it is the error of.
@@ -100,7 +100,7 @@ impl InitialError {
         self.attitude_rad.check("attitude")
     }
 
-    /// What is told of a flight.
+    /// The wrong initial estimate of a flight.
     pub(super) fn told(&self, flight: &Snapshot<f64>, generator: &mut ChaCha8Rng) -> Snapshot<f64> {
         let [position, velocity, turn] =
             [self.position_m, self.velocity_m_s, self.attitude_rad].map(|error| error.draw(generator));

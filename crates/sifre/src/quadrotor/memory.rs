@@ -1,4 +1,4 @@
-//! What a quadrotor needs to go on later, and how it is read.
+//! What a quadrotor needs to resume later, and how it is read.
 
 use super::estimation::{Estimating, EstimatingMemory};
 use super::gusts::MEMORY;
@@ -10,7 +10,7 @@ use quad_dynamics::{AnyQuadrotor, Flight, Level, PhenomenonSet};
 use quad_ndi::check_pairing;
 use serde::{Deserialize, Serialize};
 
-/// All that a quadrotor needs to go on.
+/// Everything a quadrotor needs to resume.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Memory {
@@ -36,7 +36,7 @@ pub(super) struct Restored {
 }
 
 impl ModelQuadrotor {
-    /// All it needs to go on.
+    /// Everything it needs to resume.
     pub(super) fn memory(&self) -> Memory {
         let mut state = vec![0.0; self.quadrotor.state_len()];
         self.quadrotor.write_state(&mut state);

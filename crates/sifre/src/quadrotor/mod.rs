@@ -8,7 +8,7 @@
 //!
 //! The same operations in the same order as [`quad_ndi::ClosedLoop::step`], so that engine and rollout agree bit for
 //! bit. The level may change at any of the agent's instants, before it decides: the new model adopts the flight
-//! (lift or restrict, [`quad_dynamics::Snapshot`]), so position, velocity, attitude and rates go on without a
+//! (lift or restrict, [`quad_dynamics::Snapshot`]), so position, velocity, attitude and rates continue without a
 //! jump, and thrust and torque where the new level has states for them.
 //!
 //! With an [`Estimation`] in the loop `flight_k` is what a Kalman filter makes of sensors; its file states how.
@@ -160,19 +160,19 @@ impl ModelQuadrotor {
     }
 
     /// Puts it in the middle of a flight: from now on it flies as if it had flown like this so far, under its present
-    /// input. What it remembers of its own flight is forgotten; for starts in motion. An estimator is told.
+    /// input. Its memory of the flight is forgotten; for starts in motion. An estimator is informed.
     pub fn put_in_flight(&mut self, flight: &Snapshot<f64>) {
         self.quadrotor.adopt(flight, &self.input);
         if let Some(estimating) = &mut self.estimating {
-            // It refuses a flight whose numbers are none, with which the run ends at once.
+            // It rejects a flight with a non-finite state, with which the run ends at once.
             let _ = estimating.put_in_flight(&self.quadrotor, &self.input);
         }
     }
 
-    /// The same flight goes on at another level.
+    /// The same flight continues at another level.
     ///
     /// # Errors
-    /// A model that can't be built, or a pilot above its level; the flight then goes on as it was.
+    /// A model that can't be built, or a pilot above its level; the flight then continues unchanged.
     pub fn change_level(&mut self, choice: &LevelChoice) -> Result<AgentEvent, QuadrotorError> {
         let name = || self.setup.name.clone();
         check_pairing(self.setup.pilot.level(), choice.level)
@@ -189,7 +189,7 @@ impl ModelQuadrotor {
         Ok(self.go_on_as(next))
     }
 
-    /// The flight goes on with this model.
+    /// The flight continues with this model.
     fn go_on_as(&mut self, mut next: AnyQuadrotor<f64>) -> AgentEvent {
         let mut snapshot = self.quadrotor.snapshot(&self.input);
         self.charge_drawn = snapshot.charge_drawn.unwrap_or(self.charge_drawn);
@@ -241,7 +241,7 @@ impl ModelQuadrotor {
         Vector3::from(scheduled) + script.wind.mean(now.time_ns)
     }
 
-    /// The battery goes on as in hover at levels that don't have one, so that it is not fresh when one comes that does.
+    /// The battery discharges as in hover at levels that don't have one, so that it is not fresh when the vehicle returns to a level that does.
     #[inline(always)]
     fn draw_charge(&mut self, now: &Moment<'_>) {
         if self.hover_draw > 0.0 && !self.quadrotor.level().capabilities().has_battery {
@@ -249,7 +249,7 @@ impl ModelQuadrotor {
         }
     }
 
-    /// Gusts go on, and noise acts on the vehicle at the end of its step.
+    /// Gusts continue, and noise acts on the vehicle at the end of its step.
     fn disturb(&mut self, now: &Moment<'_>, before: &Flight<f64>) {
         let mean = self.mean_wind(now);
         let script = &self.setup.script;

@@ -39,7 +39,7 @@ pub trait Pilot: Debug + Send {
         commands
     }
 
-    /// Told when the model changes its level: the last that was seen of the flight before.
+    /// Called when the model changes its level, with the last observation before the change.
     fn level_changed(&mut self, _before: &Flight<f64>) {}
 
     /// What it remembers, as numbers.
@@ -96,7 +96,7 @@ impl Pilot for AnyController<f64> {
 
 /// Commands from a list, whatever the flight does: the open loop.
 ///
-/// Zeroed commands, each from its time on; zero before the first.
+/// Commands u, each from its time on; zero before the first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OpenLoop(pub Schedule<[f64; 4]>);
 

@@ -58,7 +58,7 @@ pub enum RecordedFlightError {
         before_s: f64,
     },
     /// A value that isn't finite.
-    #[error("pose {row} of the recorded flight has a value that is NaN or infinite")]
+    #[error("pose {row} of the recorded flight contains a non-finite value")]
     NotFinite {
         /// The pose, from 1.
         row: usize,

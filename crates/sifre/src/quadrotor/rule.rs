@@ -39,7 +39,7 @@ pub(super) enum Side {
 /// Distances that make no rule.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "a rule that is fine within {fine_within_m} m and coarse beyond {coarse_beyond_m} m: both must be positive numbers, the second the larger (what lies between keeps the level from flickering)"
+    "a level rule needs 0 < fine_within_m < coarse_beyond_m (the gap keeps the level from flickering), got {fine_within_m} m and {coarse_beyond_m} m"
 )]
 pub struct RuleError {
     /// Fine from this distance down, m.

@@ -21,7 +21,7 @@ use std::sync::Arc;
 pub struct LevelChoice {
     /// The level.
     pub level: Level,
-    /// The phenomena switched on; those of the level itself unless told otherwise.
+    /// The phenomena switched on; those of the level itself by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub phenomena: Option<PhenomenonSet>,
 }
@@ -59,7 +59,7 @@ pub struct Start {
 pub struct Script {
     /// Velocity of the air in W, m/s; still before the first entry. Felt by models with drag.
     pub wind_m_s: Schedule<[f64; 3]>,
-    /// A disturbance of the input: added to the pilot's commands on their way to the rotors, in zeroed duty.
+    /// A disturbance of the input: added to the pilot's commands on their way to the rotors, as an offset in duty.
     pub command_offset: Schedule<[f64; 4]>,
     /// More about the air: a wind that is added to the one above, its growth with height, and gusts.
     #[serde(skip_serializing_if = "Wind::is_still")]
@@ -296,9 +296,9 @@ pub enum QuadrotorError {
         /// Why.
         source: Box<EstimationSetupError>,
     },
-    /// A start that isn't finite, or is farther off than [`FARTHEST_M`].
+    /// A start that isn't finite, or is farther away than [`FARTHEST_M`].
     #[error(
-        "quadrotor \"{name}\": it can't start at {value}: position, heading and velocity must be numbers of at most {FARTHEST_M:e} in magnitude"
+        "quadrotor \"{name}\": position, heading and velocity at the start must be finite and at most {FARTHEST_M:e} in magnitude, got {value}"
     )]
     BadStart {
         /// The agent.
@@ -324,7 +324,8 @@ pub enum QuadrotorError {
     },
     /// Levels by time and by distance at once.
     #[error(
-        "quadrotor \"{name}\": its level is to change at given times and by a rule of distance: keep one of script.level and script.rule"
+        "quadrotor \"{name}\": the level is set both by time (`level_changes`, `Script::level`) and by distance (`level_rule`, \
+         `Script::rule`): keep one of them"
     )]
     TwoMasters {
         /// The agent.

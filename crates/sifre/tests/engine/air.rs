@@ -120,7 +120,7 @@ fn exact_wind_grows_with_height() {
         recording.column("a.wind.x").unwrap().next().unwrap()
     };
     assert!((first_wind(Level::Five.into()) - 5.0 * 0.913_92).abs() < 5e-5);
-    // A set of one's own leaves it out where it says so.
+    // A set of your own leaves it out where it says so.
     let without = LevelChoice {
         level: Level::Five,
         phenomena: Some(Level::Five.phenomena()),
@@ -165,7 +165,7 @@ fn exact_gusts_lie_along_and_across_the_wind() {
     }
 }
 
-/// The same seed is the same flight; another seed is another. Saved and resumed it goes on bit for bit.
+/// The same seed is the same flight; another seed is another. Saved and resumed it continues bit for bit.
 #[test]
 fn exact_noise_is_seeded_and_survives_a_snapshot() {
     let end = |simulation: &mut Engine| {

@@ -1,4 +1,4 @@
-//! Bad input: errors that tell what to do.
+//! Bad input: errors that say what to do.
 
 use crate::support::{c1, c3, in_order, members, ms, plans, vehicle};
 use proptest::strategy::{Strategy, ValueTree};
@@ -60,7 +60,7 @@ fn exact_unknown_agents() {
     );
     assert_eq!(
         error.to_string(),
-        "agent \"a\" looks at \"c\", which is not in the simulation: add the agent or name one of b"
+        "agent \"a\" refers to \"c\", which is not in the simulation: add it, or name one of b"
     );
     let error = Engine::new(vec![follower("a", "a")]).unwrap_err();
     assert!(error.to_string().contains("is itself"), "{error}");
@@ -272,7 +272,7 @@ fn exact_states_that_no_run_leads_to_are_refused() {
             .unwrap();
         instants.last_mut().unwrap()["time_ns"] = (1_u64 << 49).into();
     }));
-    assert!(error.contains("steps of 5000000 ns apart"), "{error}");
+    assert!(error.contains("must be 5000000 ns apart"), "{error}");
     // All of its instants are long ago: seen at the first step, which it can't predict to.
     let late = SimulationSnapshot {
         time_ns: 1 << 49,

@@ -149,7 +149,7 @@ fn agree_with_level_5_at_a_fraction_of_its_cost() {
     assert!(everywhere < 0.3, "{everywhere}");
     assert!(settled < 0.01, "{settled}");
     assert!(share < 0.75, "{share}");
-    // The battery goes on as in hover at level 2: it is within a twentieth of what level 5 drew, and never goes back.
+    // The battery discharges as in hover at level 2: it is within a twentieth of what level 5 drew, and never goes back.
     let (charge, drawn) = (column(&mixed, "charge_drawn"), column(&whole, "charge_drawn"));
     assert!(
         (charge[at(2)] / drawn[at(2)] - 1.0).abs() < 0.05,

@@ -159,7 +159,7 @@ fn exact_with_perfect_sensors_the_loop_is_that_of_the_truth() {
     assert!(fine < 1e-4, "{fine} m");
 }
 
-/// A start in motion is told to the filter, which would otherwise look for its flight two metres away.
+/// The filter is informed of a start in motion; otherwise it would look for its flight two metres away.
 #[test]
 fn exact_a_start_in_motion_is_known() {
     let estimation = Estimation::new(Level::Three, Quality::Good.suite(), 1);
@@ -188,7 +188,7 @@ fn exact_a_failing_filter_ends_the_run() {
         panic!("{}", report.status);
     };
     assert_eq!(agent, "alpha");
-    assert!(reason.contains("left the numbers"), "{reason}");
+    assert!(reason.contains("became NaN or infinite"), "{reason}");
     assert!(report.status.to_string().contains("estimator of \"alpha\""));
     assert_eq!(report.time_s, 0.002, "at the first prediction");
     let event = simulation.events().last().expect("it is noted");

@@ -144,5 +144,8 @@ fn exact_a_step_longer_than_a_frame_is_refused() {
         &error,
         SimulationError::Bind(BindError::Step { step_s: 0.05, .. })
     ));
-    assert!(error.to_string().contains("take shorter steps"), "{error}");
+    assert!(
+        error.to_string().contains("must not exceed the camera's period"),
+        "{error}"
+    );
 }

@@ -111,7 +111,7 @@ fn exact_a_script_changes_levels_when_it_says() {
     }
 }
 
-/// What acts on the airframe goes on too where the new level has states for it: thrusts.
+/// What acts on the airframe continues too where the new level has states for it: thrusts.
 #[test]
 fn exact_thrusts_go_on_where_there_are_states_for_them() {
     let up = [

@@ -105,7 +105,7 @@ impl BlackBox for Failing {
     }
 }
 
-/// The run stops, everything is kept, other black boxes lose nothing, and the run can go on.
+/// The run stops, everything is kept, other black boxes lose nothing, and the run can continue.
 #[test]
 fn exact_a_failing_black_box_loses_nothing_else() {
     let plans = some_plans();

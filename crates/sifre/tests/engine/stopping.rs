@@ -49,7 +49,7 @@ fn exact_a_stone_stops_the_run_at_the_ground() {
     assert!((height_m - (5.0 - fallen)).abs() < 1e-11);
     assert_eq!(position(&simulation, "stone").z, -height_m);
 
-    // It can go on once nobody minds.
+    // It can continue once nobody minds.
     simulation.clear_stop_conditions();
     assert!(simulation.run(1.5, &mut ()).unwrap().status.is_completed());
 }

@@ -100,7 +100,7 @@ impl Plan {
             Law::C3 => c3(vehicle),
             Law::Pid => pid(vehicle),
         };
-        // Someone else: not itself, and somebody who is there.
+        // Another existing agent, not itself.
         let other = |k: usize| name((i + 1 + k % (count - 1)) % count);
         let setup = match &self.task {
             Task::Hold(at, yaw) => {

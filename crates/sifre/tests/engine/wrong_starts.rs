@@ -1,4 +1,4 @@
-//! Filters that are told wrong of the flight that they begin with.
+//! Filters with a wrong initial estimate.
 
 use crate::support::{c3, ms, run_recorded, vehicle};
 use nalgebra::Vector3;
@@ -61,7 +61,7 @@ fn first(error: InitialError, seed: u64) -> First {
     }
 }
 
-/// What is told wrong is believed: position and velocity along W, the attitude about B, each whatever the others are.
+/// A wrong initial estimate is used as given: position and velocity along W, the attitude about B, each whatever the others are.
 #[test]
 fn exact_fixed_errors_are_believed() {
     let heading = InitialError {
@@ -128,7 +128,7 @@ fn exact_errors_that_are_none_are_refused() {
         ..InitialError::default()
     };
     for (error, said) in [
-        (position(VectorError::Drawn(-1.0)), "not negative, not -1"),
+        (position(VectorError::Drawn(-1.0)), "not negative, got -1"),
         (position(VectorError::Drawn(f64::NAN)), "position"),
         (position(VectorError::Fixed([0.0, f64::INFINITY, 0.0])), "inf"),
     ] {

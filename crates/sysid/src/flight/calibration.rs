@@ -10,7 +10,7 @@
 //! trim           offsets of the commands that cancel the mean moments of unequal rotors, of a shifted centre of mass
 //! ```
 //!
-//! Yaw is hardly excited on such flights and held in closed loop, so that `κ/I_zz` can't be told from them: a regression
+//! Yaw is hardly excited on such flights and held in closed loop, so that `κ/I_zz` can't be identified from them: a regression
 //! answers with the controller's reaction. A flat body has `I_zz ≈ I_xx + I_yy`, hence the proportion.
 //!
 //! They are held for every other flight of the same vehicle. The dependence of thrust on battery voltage is an assumption,

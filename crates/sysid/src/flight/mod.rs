@@ -21,7 +21,7 @@
 //!
 //! What the data can and can't tell: inertia and lag trade places. At frequencies above `1/τ`, `ω̇/M ∝ 1/(I τ)`, and below 1 Hz
 //! moments of drag that are not modelled take part. So τ is taken from the thrust, and the delay δ of the gyroscope's
-//! filter, which is there (its phase grows with frequency: 20° at 8 Hz), is identified with I. In yaw only `κ/I_zz` can be told.
+//! filter (its phase grows with frequency: 20° at 8 Hz) is identified with I. In yaw only `κ/I_zz` can be identified.
 
 mod calibration;
 mod rotation;
@@ -89,7 +89,9 @@ pub enum LagOn {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlightError {
     /// The window has no or too few samples.
-    #[error("the window {from} to {to} s holds {samples} samples of a log that spans {first} to {last} s")]
+    #[error(
+        "too few samples in the window {from} to {to} s, got {samples} samples; the log spans {first} to {last} s"
+    )]
     TooFewSamples {
         /// Start of the window, s.
         from: f64,
@@ -104,7 +106,7 @@ pub enum FlightError {
     },
     /// Commands that never change.
     #[error(
-        "motor {motor}'s command is {value} throughout the window {from} to {to} s: nothing follows from it"
+        "motor {motor}'s command is {value} throughout the window {from} to {to} s: nothing can be identified from it"
     )]
     ConstantInput {
         /// Number of the motor, from 1.
@@ -117,7 +119,7 @@ pub enum FlightError {
         to: f64,
     },
     /// A sensor that never changes: stuck or not connected.
-    #[error("the {sensor} reads {value} throughout the window: it is stuck, and nothing follows from it")]
+    #[error("the {sensor} reads {value} throughout the window: is it stuck or not connected?")]
     ConstantSensor {
         /// Which, with its unit.
         sensor: &'static str,
@@ -125,7 +127,7 @@ pub enum FlightError {
         value: f64,
     },
     /// A setting that must be positive.
-    #[error("{what} must be positive and finite, not {value}")]
+    #[error("{what} must be positive and finite, got {value}")]
     NotPositive {
         /// What, with its unit.
         what: &'static str,
@@ -133,9 +135,7 @@ pub enum FlightError {
         value: f64,
     },
     /// An estimate without physical meaning: the model does not fit the data.
-    #[error(
-        "the data give {what} = {value}, which is not physical: check the signs and the order of the motors"
-    )]
+    #[error("{what} = {value} from these data is not physical: check the signs and the order of the motors")]
     NotPhysical {
         /// What, with its unit.
         what: &'static str,

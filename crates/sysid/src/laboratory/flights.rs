@@ -128,8 +128,8 @@ pub enum FlightTestError {
     /// The manoeuvre is wrong.
     #[error(transparent)]
     Trajectory(#[from] TrajectoryError),
-    /// The vehicle left the numbers.
-    #[error("the flight diverged at {time_s} s: fly slower sides")]
+    /// The vehicle became non-finite.
+    #[error("the flight diverged at {time_s} s: increase `side_s`")]
     Diverged {
         /// When, s.
         time_s: f64,

@@ -47,7 +47,7 @@ pub enum LoadCellRigError {
     #[error(transparent)]
     Sensor(#[from] SensorError),
     /// A number of the cell is not finite, or zero.
-    #[error("the cell's {what} must be finite and not zero, not {value}")]
+    #[error("the cell's {what} must be finite and not zero, got {value}")]
     Number {
         /// Which.
         what: &'static str,
@@ -55,7 +55,7 @@ pub enum LoadCellRigError {
         value: f64,
     },
     /// No steps, or no repetitions.
-    #[error("a calibration needs steps and repetitions, not {steps} and {repetitions}")]
+    #[error("a calibration needs at least one step and one repetition, got {steps} and {repetitions}")]
     Empty {
         /// Steps from no load to capacity.
         steps: u32,

@@ -97,7 +97,7 @@ pub enum PendulumRigError {
     #[error(transparent)]
     Pendulum(#[from] crate::pendulum::PendulumError),
     /// A number of the rig is not finite or has the wrong sign.
-    #[error("the rig's {what} must be finite and {least} or more, not {value}")]
+    #[error("the rig's {what} must be finite and {least} or more, got {value}")]
     Number {
         /// Which.
         what: &'static str,
@@ -155,7 +155,7 @@ impl PendulumRig {
             .collect())
     }
 
-    /// Times whole periods by stopwatch, as often as asked, each from a release at the rig's angle.
+    /// Times full periods by stopwatch, the given number of times, each from a release at the rig's angle.
     ///
     /// # Errors
     /// Numbers that make no test.

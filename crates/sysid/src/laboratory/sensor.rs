@@ -24,7 +24,7 @@ pub struct Sensor {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SensorError {
     /// Noise or quantum negative, or a number that is not finite.
-    #[error("a sensor's {what} must be finite and not negative, not {value}")]
+    #[error("a sensor's {what} must be finite and not negative, got {value}")]
     Imperfection {
         /// `noise` or `quantum`.
         what: &'static str,
@@ -32,13 +32,13 @@ pub enum SensorError {
         value: f64,
     },
     /// Bias not finite.
-    #[error("a sensor's bias must be finite, not {bias}")]
+    #[error("a sensor's bias must be finite, got {bias}")]
     Bias {
         /// The value.
         bias: f64,
     },
     /// A range without width.
-    #[error("a sensor's range from {minimum} to {maximum} is empty")]
+    #[error("a sensor's range must not be empty, got {minimum} to {maximum}")]
     EmptyRange {
         /// Lower end.
         minimum: f64,

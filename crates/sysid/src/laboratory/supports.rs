@@ -67,13 +67,13 @@ pub enum SupportError {
         force_n: f64,
     },
     /// The points of a support triangle lie in a row.
-    #[error("orientation {orientation}: the supports lie in a row")]
+    #[error("orientation {orientation}: the supports are collinear")]
     InARow {
         /// Orientation, counted from 0.
         orientation: usize,
     },
     /// Slope not finite or negative.
-    #[error("the standard deviation of the slope must be finite and not negative, not {levelling_rad} rad")]
+    #[error("the standard deviation of the slope must be finite and not negative, got {levelling_rad} rad")]
     Levelling {
         /// The value, rad.
         levelling_rad: f64,
@@ -150,7 +150,7 @@ pub fn support_forces(
 }
 
 impl SupportRig {
-    /// Places a vehicle on each triangle as often as asked and reads the instruments. Positions are along the airframe's
+    /// Places a vehicle on each triangle the given number of times and reads the instruments. Positions are along the airframe's
     /// geometric axes, in which [`quad_dynamics::vehicle::Airframe::centre_of_mass`] is given.
     ///
     /// # Errors

@@ -77,7 +77,7 @@ pub enum StandError {
         source: SensorError,
     },
     /// Times that do not rise or are not finite.
-    #[error("sampling time {index} (counted from 0) is {time_s} s: times must be finite and rise")]
+    #[error("sampling times must be finite and increase, got {time_s} s at {index} (counted from 0)")]
     Times {
         /// Place.
         index: usize,
@@ -85,7 +85,7 @@ pub enum StandError {
         time_s: f64,
     },
     /// A number that must be positive is not.
-    #[error("{what} must be positive and finite, not {value}")]
+    #[error("{what} must be positive and finite, got {value}")]
     NotPositive {
         /// What.
         what: &'static str,
@@ -93,7 +93,7 @@ pub enum StandError {
         value: f64,
     },
     /// A duty that is not finite or below the bottom of the range.
-    #[error("a duty of {duty} lies below the bottom of the range {minimum}")]
+    #[error("the duty must be at least {minimum}, the bottom of the range, got {duty}")]
     Duty {
         /// The duty.
         duty: f64,

@@ -42,13 +42,13 @@ pub enum ReadError {
         source: io::Error,
     },
     /// Nothing but comments and empty lines.
-    #[error("the file is empty: not even a line with the names of its columns")]
+    #[error("the file is empty: it needs a header line with the names of its columns")]
     Empty,
     /// A header without rows.
-    #[error("the file has no row of numbers")]
+    #[error("the file has a header but no rows")]
     NoRows,
     /// Another kind of file.
-    #[error("line {line}: this is no comma-separated table but {kind}")]
+    #[error("line {line}: not a CSV file (looks like {kind})")]
     OtherKind {
         /// Where it was noticed.
         line: u64,
@@ -56,7 +56,7 @@ pub enum ReadError {
         kind: FileKind,
     },
     /// A line longer than any row of measurements.
-    #[error("line {line} is longer than {limit} bytes: this is no table of measurements")]
+    #[error("line {line} is longer than {limit} bytes: not a table of measurements")]
     LineTooLong {
         /// The line.
         line: u64,
@@ -76,7 +76,7 @@ pub enum ReadError {
         found: Vec<String>,
     },
     /// A wanted name stands twice in the header.
-    #[error("line {line}: column \"{name}\" stands {times} times in the header; found: {}", quoted(.found))]
+    #[error("line {line}: column \"{name}\" appears {times} times in the header; found: {}", quoted(.found))]
     DuplicateColumn {
         /// Line of the header.
         line: u64,
@@ -88,7 +88,7 @@ pub enum ReadError {
         found: Vec<String>,
     },
     /// A row with more or fewer cells than there are columns.
-    #[error("line {line} has {cells} cells where {columns} are expected")]
+    #[error("line {line} has {cells} cells, expected {columns}")]
     Ragged {
         /// The line.
         line: u64,
@@ -105,7 +105,7 @@ pub enum ReadError {
         /// The column.
         column: &'static str,
     },
-    /// A cell that is no number.
+    /// A cell that is not a number.
     #[error("line {line}, column \"{column}\": \"{text}\" is not a number")]
     NotANumber {
         /// The line.
@@ -116,7 +116,7 @@ pub enum ReadError {
         text: String,
     },
     /// NaN or an infinity.
-    #[error("line {line}, column \"{column}\": {value} is not finite")]
+    #[error("line {line}, column \"{column}\": must be finite, got {value}")]
     NotFinite {
         /// The line.
         line: u64,
@@ -127,7 +127,7 @@ pub enum ReadError {
     },
     /// A value that is physically impossible in the column's unit.
     #[error(
-        "line {line}, column \"{column}\": {value} {unit} lies outside {minimum} to {maximum} {unit}: is it in another unit?"
+        "line {line}, column \"{column}\": must lie in {minimum} to {maximum} {unit}, got {value} {unit}; is it in another unit?"
     )]
     OutsideRange {
         /// The line.
@@ -144,7 +144,7 @@ pub enum ReadError {
         maximum: f64,
     },
     /// Time that stands still or runs back.
-    #[error("line {line}: time goes from {before} s to {after} s; it must rise from row to row")]
+    #[error("line {line}: time must increase from row to row, got {after} s after {before} s")]
     TimeNotRising {
         /// The line.
         line: u64,
@@ -154,7 +154,7 @@ pub enum ReadError {
         after: f64,
     },
     /// Four numbers that are no attitude.
-    #[error("line {line}: the quaternion of the attitude has the length {length} instead of 1")]
+    #[error("line {line}: the quaternion of the attitude must have length 1, got {length}")]
     NoAttitude {
         /// The line.
         line: u64,
@@ -190,7 +190,7 @@ pub enum Remark {
         line: u64,
     },
     /// A measured column repeats its largest or smallest value for many rows: a saturated or stuck sensor.
-    #[error("column \"{column}\" sits at its extreme {value} {unit} for {rows} rows up to line {line}")]
+    #[error("column \"{column}\" stays at its extreme {value} {unit} for {rows} rows up to line {line}")]
     Saturated {
         /// The column.
         column: &'static str,

@@ -90,7 +90,7 @@ impl<R: Read> Lines<R> {
 /// What some programs write at the start of UTF-8 text.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// What the first line with content tells of a file that is no comma-separated table.
+/// What the first line with content shows about a file that is not a CSV table.
 fn other_kind(first: &str) -> Option<FileKind> {
     if first.starts_with('<') {
         return Some(FileKind::Markup);

@@ -35,7 +35,7 @@ pub use error::{FileKind, ReadError, Remark};
 use std::io::Read;
 use std::ops::ControlFlow;
 
-/// Rows that [`read`] collects unless told otherwise: with ten columns of eight bytes and a line number each, half a gigabyte at most.
+/// Rows that [`read`] collects by default: with ten columns of eight bytes and a line number each, half a gigabyte at most.
 pub const DEFAULT_ROW_LIMIT: usize = 6_000_000;
 
 /// Where a column's numbers come from, which decides what is suspicious about them.

@@ -46,7 +46,7 @@ fn exact_file_without_names() {
     let table = read("0,0.5,1\n0.1,0.6, 2e0\n".as_bytes(), &layout).unwrap();
     assert_eq!(table.column(2), [1.0, 2.0]);
     let error = read("0,0.5\n".as_bytes(), &layout).unwrap_err().to_string();
-    assert_eq!(error, "line 1 has 2 cells where 3 are expected");
+    assert_eq!(error, "line 1 has 2 cells, expected 3");
 }
 
 #[test]
@@ -54,25 +54,22 @@ fn exact_errors_name_the_line_and_what_is_wrong() {
     let cases = [
         (
             "",
-            "the file is empty: not even a line with the names of its columns",
+            "the file is empty: it needs a header line with the names of its columns",
         ),
         (
             "# only\n\n",
-            "the file is empty: not even a line with the names of its columns",
+            "the file is empty: it needs a header line with the names of its columns",
         ),
-        ("t_s,u,rate\n", "the file has no row of numbers"),
+        ("t_s,u,rate\n", "the file has a header but no rows"),
         (
             "t_s,U,rate\n0,0,0\n",
             "line 1: column \"u\" missing; wanted: \"t_s\", \"u\", \"rate\"; found: \"t_s\", \"U\", \"rate\"",
         ),
         (
             "t_s,u,rate,u\n0,0,0,0\n",
-            "line 1: column \"u\" stands 2 times in the header; found: \"t_s\", \"u\", \"rate\", \"u\"",
+            "line 1: column \"u\" appears 2 times in the header; found: \"t_s\", \"u\", \"rate\", \"u\"",
         ),
-        (
-            "t_s,u,rate\n0,0,0\n\n0.1,0\n",
-            "line 4 has 2 cells where 3 are expected",
-        ),
+        ("t_s,u,rate\n0,0,0\n\n0.1,0\n", "line 4 has 2 cells, expected 3"),
         ("t_s,u,rate\n0,0,\n", "line 2, column \"rate\": the cell is empty"),
         (
             "t_s,u,rate\n0,0,1.2.3\n",
@@ -80,27 +77,27 @@ fn exact_errors_name_the_line_and_what_is_wrong() {
         ),
         (
             "t_s,u,rate\n0,0,nan\n",
-            "line 2, column \"rate\": NaN is not finite",
+            "line 2, column \"rate\": must be finite, got NaN",
         ),
         (
             "t_s,u,rate\n0,-inf,0\n",
-            "line 2, column \"u\": -inf is not finite",
+            "line 2, column \"u\": must be finite, got -inf",
         ),
         (
             "t_s,u,rate\n0,0,1e999\n",
-            "line 2, column \"rate\": inf is not finite",
+            "line 2, column \"rate\": must be finite, got inf",
         ),
         (
             "t_s,u,rate\n0,0,0\n0.1,0,120\n",
-            "line 3, column \"rate\": 120 rad/s lies outside -40 to 40 rad/s: is it in another unit?",
+            "line 3, column \"rate\": must lie in -40 to 40 rad/s, got 120 rad/s; is it in another unit?",
         ),
         (
             "t_s,u,rate\n0,0,0\n0.2,0,0\n0.1,0,0\n",
-            "line 4: time goes from 0.2 s to 0.1 s; it must rise from row to row",
+            "line 4: time must increase from row to row, got 0.1 s after 0.2 s",
         ),
         (
             "t_s,u,rate\n0,0,0\n0,0,0\n",
-            "line 3: time goes from 0 s to 0 s; it must rise from row to row",
+            "line 3: time must increase from row to row, got 0 s after 0 s",
         ),
     ];
     for (text, message) in cases {

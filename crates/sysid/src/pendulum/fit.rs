@@ -1,4 +1,4 @@
-//! The whole equation of motion fitted to the angle history.
+//! The full equation of motion fitted to the angle history.
 
 use super::history::{History, look};
 use super::{AngleSample, Pendulum, PendulumError, Suspension, Swing};

@@ -33,7 +33,7 @@ const ROUGH: f64 = 0.5;
 const HYSTERESIS: f64 = 0.15;
 /// Passages through the middle that a fit needs: one and a half periods.
 const LEAST_CROSSINGS: usize = 4;
-/// Periods below which damping and period are told apart poorly.
+/// Periods below which damping and period are poorly distinguished.
 const FEW_PERIODS: f64 = 5.0;
 /// Steps longer than this many median steps are gaps.
 const GAP: f64 = 1.5;

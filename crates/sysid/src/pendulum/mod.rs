@@ -19,7 +19,7 @@
 //! `T = 2π √(I L / (m g b²))`, hence the small-angle law `I = m g b² T² / (4 π² L)`.
 //!
 //! - [`from_timings`]: the small-angle law, with the uncertainty from the scatter of the timings.
-//! - [`fit_history`]: the whole equation, fitted to the history of the angle.
+//! - [`fit_history`]: the full equation, fitted to the history of the angle.
 //! - [`Suspension::period`]: the period at any amplitude, without damping, by quadrature.
 //!
 //! Assumptions: strings massless, inextensible, parallel at rest, free of twist; the body a symmetric suspension about a
@@ -79,7 +79,7 @@ pub struct TimedInertia {
 pub enum PendulumError {
     /// A length, mass or acceleration outside its range.
     #[error(
-        "the suspension's {what} is {value} {unit}, outside {minimum} to {maximum} {unit}: is the unit right?"
+        "the suspension's {what} must lie in {minimum} to {maximum} {unit}, got {value} {unit}; is the unit right?"
     )]
     Suspension {
         /// Name of the number.
@@ -95,7 +95,7 @@ pub enum PendulumError {
     },
     /// A timing without periods, or with a period that no such pendulum has.
     #[error(
-        "timing {index} (counted from 0): {periods} periods in {duration_s} s; are these whole periods, and seconds?"
+        "timing {index} (counted from 0): {periods} periods in {duration_s} s; are these full periods, and seconds?"
     )]
     Timing {
         /// Place in the order of the data.
@@ -106,14 +106,14 @@ pub enum PendulumError {
         duration_s: f64,
     },
     /// A number is NaN or infinite.
-    #[error("sample {index} (counted from 0) is not finite")]
+    #[error("sample {index} (counted from 0) must be finite")]
     NotFinite {
         /// Place in the order of the data.
         index: usize,
     },
     /// Time stands still or goes back.
     #[error(
-        "time goes from {before_s} s to {time_s} s at sample {index} (counted from 0): sort the samples, remove doubles"
+        "time must increase, got {time_s} s after {before_s} s at sample {index} (counted from 0): sort the samples, remove duplicates"
     )]
     TimeNotIncreasing {
         /// Place in the order of the data.
@@ -143,7 +143,7 @@ pub enum PendulumError {
     },
     /// Nothing swings, or the noise drowns it, or it is sampled too slowly.
     #[error(
-        "no oscillation to be seen: steps between samples have {roughness:.2} of the signal's own mean square (2 for noise alone, \
+        "no oscillation found: steps between samples have {roughness:.2} of the signal's own mean square (2 for noise alone, \
          0 for a constant, 0.44 for ten samples per period); release it from a larger angle, sample faster"
     )]
     NoOscillation {
@@ -151,9 +151,7 @@ pub enum PendulumError {
         roughness: f64,
     },
     /// Less than a period and a half was recorded.
-    #[error(
-        "{crossings} passages through the middle were seen: at least 4, one and a half periods, are needed for a fit"
-    )]
+    #[error("a fit needs at least 4 passages through the middle (one and a half periods), got {crossings}")]
     TooFewPeriods {
         /// Passages through the middle.
         crossings: usize,

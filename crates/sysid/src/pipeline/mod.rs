@@ -10,7 +10,7 @@
 //! flight                 drag along x_B, y_B: m f_i = −k_i |v_i| v_i + bias       drag
 //! ```
 //!
-//! What is not identified is taken from a nominal file and says so in its source: geometry, gravity, air density, PWM range,
+//! What is not identified is taken from a nominal file and marked so in its source: geometry, gravity, air density, PWM range,
 //! motor, battery, and of the drag the part along `z_B` and the rate damping. Those two a flight under control cannot
 //! give: along `z_B` the rotors' thrust, known to a few percent of 14 N by the polynomials, hides a drag of tenths of a newton;
 //! the moment of rate damping is of the size of what the same few percent make of thrust differences.
@@ -101,21 +101,19 @@ pub enum PipelineError {
     #[error("rotor response: {0}")]
     Dynamics(#[from] IdentificationError),
     /// Rotor dynamics: no slower pole to take as the bandwidth.
-    #[error(
-        "rotor response: the thrust answers with a complex pair of poles: level 3 has no bandwidth for it"
-    )]
+    #[error("rotor response: the thrust has a complex pair of poles, so level 3 has no bandwidth for it")]
     ComplexPoles,
     /// Drag.
     #[error("flight: {0}")]
     Drag(FitError),
     /// A group that the nominal file must have.
-    #[error("the nominal file has no [{group}], which the identification needs")]
+    #[error("the identification needs [{group}], which the nominal file does not have")]
     MissingGroup {
         /// The group.
         group: &'static str,
     },
-    /// The identified vehicle is none.
-    #[error("the identified vehicle is refused: {0}")]
+    /// The identified vehicle is invalid.
+    #[error("the identified vehicle is invalid: {0}")]
     Vehicle(Box<VehicleError>),
 }
 

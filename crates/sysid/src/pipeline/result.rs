@@ -74,7 +74,7 @@ pub struct Identified {
     pub remarks: Vec<Remarked>,
 }
 
-/// Where a number stands in the file.
+/// Where a number is in the file.
 pub(super) type Place = fn(&mut VehicleFile) -> &mut Number;
 
 /// A number of the propeller's group, which [`Identified::from_nominal`] makes sure of.

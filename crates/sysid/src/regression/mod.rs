@@ -23,7 +23,7 @@ pub use total::{Deviations, NoisyPoint, TotalFit, total};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FitError {
     /// Fewer data than unknowns, or as many: no residual is left to judge the fit by.
-    #[error("{points} data do not determine {unknowns} unknowns with their uncertainty: at least {} are needed", unknowns + 1)]
+    #[error("{unknowns} unknowns with their uncertainty need at least {} data points, got {points}", unknowns + 1)]
     TooFewPoints {
         /// How many data there are.
         points: usize,
@@ -32,7 +32,7 @@ pub enum FitError {
     },
     /// The data leave a combination of the unknowns open.
     #[error(
-        "the data determine only {rank} of {unknowns} unknowns: vary the input so that each has an effect of its own"
+        "the data determine only {rank} of {unknowns} unknowns: vary the input so that each has its own effect"
     )]
     RankDeficient {
         /// How many combinations are determined.
@@ -41,14 +41,14 @@ pub enum FitError {
         unknowns: usize,
     },
     /// A number is NaN or infinite.
-    #[error("datum {index} (counted from 0) is not finite")]
+    #[error("data point {index} (counted from 0) must be finite")]
     NotFinite {
         /// Place in the order of the data.
         index: usize,
     },
     /// All data are equal though the regressors change: a stuck sensor. A fit would give rounding with an interval of rounding.
     #[error(
-        "all {points} data are {value} while the input changes: the sensor is stuck or not connected, and nothing follows from it"
+        "all {points} data points are {value} while the input changes: is the sensor stuck or not connected?"
     )]
     ConstantData {
         /// How many data there are.
@@ -57,7 +57,7 @@ pub enum FitError {
         value: f64,
     },
     /// The model gave NaN or infinity at the start of the iteration.
-    #[error("the model has no finite prediction at the start {start:?}: choose another")]
+    #[error("the model's prediction at the start {start:?} is not finite: choose another start")]
     NoStart {
         /// The start.
         start: Vec<f64>,

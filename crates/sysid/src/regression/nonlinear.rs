@@ -8,7 +8,7 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra_034::{Const, DVector, Dyn, OMatrix, OVector, SVector, U1, storage::Owned};
 use quad_math::{Dual, Real};
 
-/// A model that predicts data from `N` parameters; one text over any scalar, so that its Jacobian is exact.
+/// A model that predicts data from `N` parameters; generic in the scalar, so that its Jacobian is exact.
 pub trait Predictor<const N: usize> {
     /// The predictions, one for each datum, in the unit of the data.
     fn predict<R: Real>(&self, parameters: &[R; N]) -> Vec<R>;

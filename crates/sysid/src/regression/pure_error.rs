@@ -11,7 +11,7 @@
 //! Where a curve misses what it is fitted to, its residuals are noise and misfit together. The misfit is the same in every
 //! repetition of the test, so that it does not scatter the estimates about the best curve over these settings; only the
 //! noise does, and repetitions at one setting tell the noise alone. What the curve misses is no matter of an interval: it is
-//! reported by [`LackOfFit`]. Without repetitions the two can't be told apart, and intervals from the residuals, wider than
+//! reported by [`LackOfFit`]. Without repetitions the two cannot be distinguished, and intervals from the residuals, wider than
 //! the noise, are all there is.
 //!
 //! Assumptions: noise independent from datum to datum. Source: Draper and Smith, *Applied Regression

@@ -13,7 +13,7 @@ pub enum IdentificationError {
     #[error(transparent)]
     Record(#[from] RecordError),
     /// The regression was refused.
-    #[error("no {structure:?} transfer function can be told from the record: {source}")]
+    #[error("the record does not determine a {structure:?} transfer function: {source}")]
     Fit {
         /// The structure.
         structure: Structure,

@@ -14,7 +14,7 @@
 //! text. The order is chosen by the Bayesian information criterion ([`select`]), the residuals are tested for whiteness.
 //!
 //! Assumptions: white noise on the output, none on input and time; a linear, time-invariant rotor, hence small changes
-//! about one working point. Where that fails, residuals are correlated and a warning says so. Source: Ljung, *System
+//! about one working point. Where that fails, residuals are correlated and a warning reports it. Source: Ljung, *System
 //! Identification*, 2nd ed., chapters 4, 7, 9, 16; thesis, chapter 4.5.3 and table 4.6 (coefficients; the form is ours).
 
 mod fit;

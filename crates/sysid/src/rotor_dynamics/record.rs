@@ -45,7 +45,7 @@ pub struct Record {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum RecordError {
     /// Too few samples to speak of a response.
-    #[error("{samples} samples are no response: at least {needed} are needed")]
+    #[error("a response needs at least {needed} samples, got {samples}")]
     TooFewSamples {
         /// How many there are.
         samples: usize,
@@ -53,13 +53,13 @@ pub enum RecordError {
         needed: usize,
     },
     /// A number is NaN or infinite.
-    #[error("sample {index} (counted from 0) holds a number that is not finite")]
+    #[error("sample {index} (counted from 0) contains a non-finite number")]
     NotFinite {
         /// Place in the order of the data.
         index: usize,
     },
     /// Time stands still or goes backwards.
-    #[error("time does not rise at sample {index} (counted from 0): {time_s} s after {previous_s} s")]
+    #[error("time must increase, got {time_s} s after {previous_s} s at sample {index} (counted from 0)")]
     TimeNotRising {
         /// Place in the order of the data.
         index: usize,

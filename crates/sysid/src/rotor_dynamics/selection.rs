@@ -8,7 +8,7 @@ use super::{IdentificationError, ResponseFit, Start, Structure, identify};
 pub struct Candidate {
     /// The structure.
     pub structure: Structure,
-    /// Its fit, or why there is none.
+    /// Its fit, or why it failed.
     pub fit: Result<ResponseFit, IdentificationError>,
 }
 
@@ -27,7 +27,7 @@ pub struct Selection {
 /// goes to zero as the record grows (for one needless parameter it is `P(χ²_1 > ln n)`, 1 % at n = 1000, where Akaike's
 /// stays at 16 %), and a needless pole would cost the other coefficients their precision.
 ///
-/// A fit that did not converge is chosen only if none did; its warning says so.
+/// A fit that did not converge is chosen only if none did; its warning reports it.
 ///
 /// # Errors
 /// The last candidate's, if none could be fitted; none given counts as all of [`Structure::ALL`].

@@ -44,7 +44,7 @@ impl LinearGains {
 /// [`crate::rotor_static`] on repeated readings; what the line misses of the rotor's curve is announced.
 ///
 /// # Errors
-/// Fewer than three samples or one duty only, several voltages, a slope that is not told from zero, numbers not finite.
+/// Fewer than three samples or one duty only, several voltages, a slope not distinct from zero, non-finite numbers.
 pub fn linear_gains(samples: &[StaticSample]) -> Result<LinearGains, StaticError> {
     one_voltage(samples)?;
     let rows: Vec<Row<2>> = samples

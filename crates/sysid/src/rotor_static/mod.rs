@@ -8,12 +8,12 @@
 //!
 //! Assumptions: still air, steady readings, noise on thrust and torque of equal variance, duty, voltage and speed known
 //! far better than thrust and torque. An interval speaks of noise only: a bias of a force sensor shifts an estimate and is
-//! in no interval, so tare before a test. Where the model misses the rotor's curve by more than the noise, a warning says so.
+//! in no interval, so tare before a test. Where the model misses the rotor's curve by more than the noise, a warning reports it.
 //!
 //! Cubics and lines are not the rotor's law: an interval is that of the best curve over the settings measured. **Read each setting
 //! several times**, best in a second pass: then the scatter of repeated readings, which is noise alone, makes the interval, and a
 //! test tells whether the curve misses more than that ([`Warning::CurveMisses`]). With one reading of a setting, or fewer than ten
-//! repetitions in all, noise and misfit can't be told apart; intervals come from the residuals and are wider than the noise
+//! repetitions in all, noise and misfit cannot be distinguished; intervals come from the residuals and are wider than the noise
 //! where the curve misses much.
 //!
 //! Valid over the speeds, duties and voltages measured. Source: thesis, chapter 4.5 and tables 4.3 to 4.5; Brandt and
@@ -84,7 +84,7 @@ pub enum StaticError {
     #[error(transparent)]
     Fit(#[from] FitError),
     /// A number that must be positive is not.
-    #[error("{what} must be positive and finite, not {value}")]
+    #[error("{what} must be positive and finite, got {value}")]
     NotPositive {
         /// What.
         what: &'static str,
@@ -92,7 +92,7 @@ pub enum StaticError {
         value: f64,
     },
     /// A duty below the bottom of the range.
-    #[error("sample {index} has duty {duty}, below the bottom of the range {minimum}")]
+    #[error("sample {index}: the duty must be at least {minimum}, the bottom of the range, got {duty}")]
     BelowRange {
         /// Place in the order of the data.
         index: usize,
@@ -103,7 +103,7 @@ pub enum StaticError {
     },
     /// A line in the duty alone over data of several voltages.
     #[error(
-        "battery voltages from {lowest} V to {highest} V: a line over the duty holds at one voltage; choose the samples of one"
+        "a line over the duty holds at one battery voltage, got {lowest} V to {highest} V: choose the samples of one voltage"
     )]
     VoltageVaries {
         /// Lowest, V.
@@ -113,7 +113,7 @@ pub enum StaticError {
     },
     /// The slope does not differ from zero, so that the line has no zero.
     #[error(
-        "the thrust does not change with the duty ({slope} ± {standard_error} N): there is no zero-thrust duty"
+        "the thrust does not change with the duty ({slope} ± {standard_error} N), so no zero-thrust duty exists"
     )]
     NoSlope {
         /// Slope, N.

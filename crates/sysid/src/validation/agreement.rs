@@ -64,7 +64,7 @@ pub struct ResidualStatistics {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum AgreementError {
     /// Series of unequal length.
-    #[error("{measured} measured and {predicted} predicted samples can't be compared")]
+    #[error("measured and predicted samples must be equal in number, got {measured} and {predicted}")]
     Lengths {
         /// Measured samples.
         measured: usize,
@@ -72,13 +72,13 @@ pub enum AgreementError {
         predicted: usize,
     },
     /// Too short.
-    #[error("{samples} samples are too few to compare: at least 2")]
+    #[error("a comparison needs at least 2 samples, got {samples}")]
     TooShort {
         /// Samples.
         samples: usize,
     },
     /// NaN or infinity: a prediction that ran away.
-    #[error("sample {index} (counted from 0) is not finite")]
+    #[error("sample {index} (counted from 0) must be finite")]
     NotFinite {
         /// Place of the first.
         index: usize,

@@ -69,13 +69,13 @@ pub struct ReplayVehicle {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReplayError {
     /// Level 1 has a state of its own kind.
-    #[error("levels 2 to 5 are driven by recordings, not {level}")]
+    #[error("a replay needs level 2 to 5, got {level}")]
     Level {
         /// The level asked for.
         level: Level,
     },
     /// A window without samples enough for one average.
-    #[error("the window {from} to {to} s holds {samples} samples: too few for means over {AVERAGE_S} s")]
+    #[error("the window {from} to {to} s has {samples} samples, too few for means over {AVERAGE_S} s")]
     Window {
         /// Start, s.
         from: f64,
@@ -85,7 +85,7 @@ pub enum ReplayError {
         samples: usize,
     },
     /// A horizon outside what makes sense.
-    #[error("a horizon of {horizon_s} s is no multiple of the means' length {AVERAGE_S} s")]
+    #[error("the horizon must be a multiple of the averaging time, {AVERAGE_S} s, got {horizon_s} s")]
     Horizon {
         /// The horizon, s.
         horizon_s: f64,

@@ -93,7 +93,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The zeroed commands at a time, s.
+    /// The commands u at a time, s.
     fn input(&self, time: f64) -> Input<f64> {
         let all = &self.flight.inertial.time;
         let next = all.partition_point(|&t| t <= time).clamp(1, all.len() - 1);

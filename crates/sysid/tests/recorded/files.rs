@@ -1,7 +1,7 @@
 //! Where the recorded flights are, and what to do when they are not there.
 //!
-//! The folder that `QUAD_DATA` names, else `data/external/`. Where nothing names a folder and none is there, a test says
-//! that it was skipped. A folder that was named, or is there, must hold the file: its absence fails the test, so
+//! The folder that `QUAD_DATA` names, else `data/external/`. Where nothing names a folder and neither exists, a test says
+//! that it was skipped. A folder that was named, or exists, must hold the file: its absence fails the test, so
 //! that a build server with the data can't skip unnoticed.
 
 use std::fs::File;

@@ -35,15 +35,27 @@ fn exact_errors_of_variables() {
 
 #[test]
 fn exact_errors_of_the_mission_and_weights() {
-    assert!(refusal(|m, _, _| m.start.velocity_m_s[1] = f64::NAN).contains("y_dot_0_m_s = NaN"));
-    assert!(refusal(|m, _, _| m.duration_s = 2.001).contains("2.001 s is no whole number"));
+    assert!(
+        refusal(|m, _, _| m.start.velocity_m_s[1] = f64::NAN).contains("y_dot_0_m_s must be finite, got NaN")
+    );
+    assert!(refusal(|m, _, _| m.duration_s = 2.001).contains("got 2.001 s"));
     assert!(refusal(|m, _, _| m.duration_s = -2.0).contains("-2"));
-    assert!(refusal(|m, _, _| m.step = m.station_step.times(2)).contains("no multiple"));
-    assert!(refusal(|m, _, _| m.station.frames.noise = 1.0).contains("noise of 1 px"));
-    assert!(refusal(|m, _, _| m.station.limits.range = 0.0).contains("limits.range = 0"));
-    assert!(refusal(|_, _, w| w.spot = -1.0).contains("weights.spot = -1"));
-    assert!(refusal(|_, _, w| w.range = f64::NAN).contains("weights.range = NaN"));
-    assert!(refusal(|_, _, w| w.range = 1e308).contains("weights up to 100"));
+    assert!(
+        refusal(|m, _, _| m.step = m.station_step.times(2)).contains("must be a multiple of the vehicle's")
+    );
+    assert!(refusal(|m, _, _| m.station.frames.noise = 1.0).contains("got 1 px"));
+    assert!(
+        refusal(|m, _, _| m.station.limits.range = 0.0)
+            .contains("limits.range must be finite and positive, got 0")
+    );
+    assert!(
+        refusal(|_, _, w| w.spot = -1.0).contains("weights.spot must be finite and not negative, got -1")
+    );
+    assert!(
+        refusal(|_, _, w| w.range = f64::NAN)
+            .contains("weights.range must be finite and not negative, got NaN")
+    );
+    assert!(refusal(|_, _, w| w.range = 1e308).contains("weights.range must be at most 100"));
 }
 
 #[test]
@@ -57,7 +69,7 @@ fn exact_errors_of_decisions() {
         })
     ));
     let message = problem.evaluate(&[1.0, f64::NAN]).unwrap_err().to_string();
-    assert!(message.contains("x_f_m = NaN"));
+    assert!(message.contains("x_f_m must be finite, got NaN"));
     assert!(problem.gradient(&[f64::INFINITY, 0.0]).is_err());
     assert!(problem.ideal(&[0.0; 3]).is_err());
     assert!(problem.evaluate_all(&[vec![1.0, 2.0], vec![1.0]]).is_err());

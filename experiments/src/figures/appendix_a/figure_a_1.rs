@@ -25,7 +25,7 @@ const POINTS: Claim = Claim::holds(
     "the ETS points at the quadrotor: once it has settled, the axis of its beam always meets the receiver",
 );
 const FACES: Claim = Claim::holds(
-    "the quadrotor's yaw points at the ETS, to within what costs the receiver a hundredth of its power",
+    "the quadrotor's yaw points at the ETS, to within an angle that costs the receiver a hundredth of its power",
 );
 
 fn draw(_: &Context) -> Result<Drawing, ItemError> {

@@ -8,8 +8,8 @@ use crate::item::{Context, Item, ItemError, Kind, Make, Origin};
 pub(super) const ITEM: Item = Item {
     id: "table-B.1",
     title: "Specification of the motion-capture system",
-    description: "Values of a camera of the time, OptiTrack V100:R2 (NaturalPoint; later sold as Flex 3), as its data sheet is \
-                  remembered to give them: the sheet is no longer public, and no page was found to check them against. A stand-in: the source's \
+    description: "Values of a camera of the time, OptiTrack V100:R2 (NaturalPoint; later sold as Flex 3), from memory of its data sheet, which is no longer \
+                  public, so that they could not be checked. A substitute: the source's \
                   laboratory had a system of this maker, but its model and values are not available. The last two rows follow from the ones above.",
     kind: Kind::Table,
     origin: Origin::DataSheet,

@@ -10,7 +10,7 @@ use crate::station::{NOMINAL_STATION, load_station};
 pub(super) const ITEM: Item = Item {
     id: "table-G.2",
     title: "Properties of the energy transmission system and its sensor",
-    description: "Every number of the nominal station file with its unit in the key and its source, and what follows from them at the end. \
+    description: "Every number of the nominal station file with its unit in the key and its source, and derived values at the end. \
                   The thesis' own values are not available; these are the project's. The heading of 0° puts the stop of the pan axis, ±170°, in the south; the \
                   optimisations of chapter 7 turn the pedestal to 90° and so the stop to the west.",
     kind: Kind::Table,

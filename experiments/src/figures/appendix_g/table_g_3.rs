@@ -12,7 +12,7 @@ use wpt_optim::Choice;
 pub(super) const ITEM: Item = Item {
     id: "table-G.3",
     title: "Controller properties of the energy transmission simulation",
-    description: "Which controller flies which level, what its loops are asked for and the gains that follow: settling time *τ*_{s} to 2 %, damping *ζ*, \
+    description: "Which controller flies which level, the design of its loops and the gains that follow: settling time *τ*_{s} to 2 %, damping *ζ*, \
                   natural frequency *ω*_{n} and, for c3, the extra real pole *p*. The thesis' own values are not available; these are the project's: \
                   the position loop is as slow as in the trajectory figures of chapter 6.",
     kind: Kind::Table,

@@ -72,9 +72,9 @@ pub(super) fn drawing(study: &Study, name: &str) -> Result<Drawing, ItemError> {
         .note(CAVEATS))
 }
 
-const CAVEATS: &str = "Table: fit % (Theil's *U*) over all 13 s; fit 0 % is what the mean would do. *One-step*: the body starts anew from the \
-    measured state at every sample, so that this is the model's acceleration at the measured state; *horizon*: anew every 0.1, 0.5 or \
-    1 s, open loop in between; *whole flight*: once. *p*, *q*, *r*, *v*_{z} are compared at the end of each horizon (one-step, whole \
+const CAVEATS: &str = "Table: fit % (Theil's *U*) over all 13 s; fit 0 % is that of predicting the mean. *One-step*: the body restarts from the \
+    measured state at every sample, so that this is the model's acceleration at the measured state; *horizon*: restarted every 0.1, 0.5 or \
+    1 s, open loop in between; *whole flight*: started once. *p*, *q*, *r*, *v*_{z} are compared at the end of each horizon (one-step, whole \
     flight: every 0.05 s). Rates of an open-loop replay diverge, whatever the model: attitude is unstable. Horizontal accelerations rest \
     on motion capture's attitude times thrust and agree only weakly on the slow flights, where they are hardly larger than the offsets. Effective mass means mass over thrust scale: markers and motors can't be told apart.";
 

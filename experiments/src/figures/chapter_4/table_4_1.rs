@@ -14,7 +14,7 @@ pub(super) const ITEM: Item = Item {
     id: "table-4.1",
     title: "Basic properties of the Qball-X4",
     description: "Mass and centre of mass as the support test of the virtual laboratory measures them, with 95 % intervals, \
-                  beside the values that its vehicle has; then what is given: the vendor's dimensions, the parts fitted and the ranges of \
+                  beside the vehicle's true values; then the given data: the vendor's dimensions, the parts fitted and the ranges of \
                   the command and the battery, from the nominal parameter file. The thesis measured its own values, which are not available.",
     kind: Kind::Table,
     origin: Origin::VirtualLaboratory,

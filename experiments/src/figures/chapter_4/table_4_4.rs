@@ -90,7 +90,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         .check(BEST, inside == all, format!("{inside} of {all}"))
         .check(STATED, widest < 0.05, format!("widest half width {:.1} %", 100.0 * widest))
         .note(
-            "The readings' own noise is 7 mN and 0.17 mN m a point; what *s* has beyond is what no cubic describes, and an interval \
+            "The readings' own noise is 7 mN and 0.17 mN m a point; the rest of *s* is what no cubic describes, and an interval \
              that counts it as noise is wide rather than right: for another range of duty and voltage the best cubic is another.",
         ))
 }

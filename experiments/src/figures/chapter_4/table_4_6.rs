@@ -104,7 +104,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
             format!("Ljung-Box p from {:.3} to {:.3} over eight fits, 20 lags", p.0, p.1),
         )
         .note(
-            "*ω*_{R} comes out below the slower pole (14.5 rad/s): one pole has to stand for two, and a quick sequence weighs \
-             the delay of the second. Its residuals are not white, and the fit says so.",
+            "*ω*_{R} comes out below the slower pole (14.5 rad/s): one pole has to represent two, and a quick sequence weighs \
+             the delay of the second. Its residuals are not white, and the fit reports it.",
         ))
 }

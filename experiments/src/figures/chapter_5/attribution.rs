@@ -16,8 +16,8 @@ pub(super) const ITEM: Item = Item {
     id: "beyond.1",
     title: "What separates the levels: height lost in a horizontal step, attributed to single parts",
     description: "In the flight of figure 6.14 (controller c1, one metre in *x*), all parts between two levels are switched on and off in every \
-                  combination. Drawn is the change of the height error (root mean square over 12 s) that each part is answerable for: \
-                  switched on alone, switched on last, and its Shapley value, whose sum is the whole difference. Level 5 has the \
+                  combination. Drawn is the change of the height error (root mean square over 12 s) due to each part: switched on alone, switched on last, \
+                  and its Shapley value; Shapley values sum to the total difference. Level 5 has the \
                   voltage sag of its battery here, which figure 6.14 leaves out.",
     kind: Kind::Plot,
     origin: Origin::Simulated,

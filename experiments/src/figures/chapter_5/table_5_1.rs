@@ -12,9 +12,9 @@ use quad_dynamics::{AnyQuadrotor, Level, Phenomenon, PhenomenonSet, Prerequisite
 pub(super) const ITEM: Item = Item {
     id: "table-5.1",
     title: "Phenomena: contribution to resolution and prerequisites",
-    description: "Each part of a model that switches on and off: what it adds, what it needs, which levels have it by themselves (●) or \
-                  take it when asked (○), and whose equation it is. Printed from the declarations in the code. The mean wind and its \
-                  steps are inputs of every model and felt through drag.",
+    description: "Each part of a model that switches on and off: what it adds, what it needs, which levels include it (●) or accept \
+                  it (○), and the source of its equation. Printed from the declarations in the code. The mean wind and its \
+                  steps are inputs of every model and act through drag.",
     kind: Kind::Table,
     origin: Origin::Derived,
     claims: &[BUILT],

@@ -18,7 +18,7 @@ pub(super) const FIGURE_7_26: Item = Item {
     id: "7.26",
     title: "Each level's solution flown at every level",
     description: "The six-variable solutions of figure 7.23, all on the bound *z*_{0} = *z*_{f} = −1 m. (a) The cost *Φ* of the solution of one level (row) flown at another \
-                  (column). (b) How much dearer it is there than the column's own solution, in thousandths. Shades of both are the numbers of (b), white at zero.",
+                  (column). (b) How much higher the cost is there than for the column's own solution, in thousandths. Shades of both are the numbers of (b), white at zero.",
     kind: Kind::Plot,
     origin: Origin::Simulated,
     claims: &[OWN_IS_BEST],
@@ -44,8 +44,8 @@ const CASE: Case = Case::SixNarrowed;
 const OWN_IS_BEST: Claim = Claim::holds("at every level its own solution costs least of the five");
 const RISES: Claim = Claim::does_not_hold(
     "the cost rises with the distance between levels",
-    "levels 2 to 4 follow the path as level 1 does, to centimetres, and level 5, whose rotors and battery give less thrust than c3's inversion \
-     believes, sinks below the path by up to a quarter of a metre: lower, and so nearer and less oblique to the beam, which the cost counts as a gain",
+    "levels 2 to 4 follow the path as level 1 does, to centimetres, and level 5, whose rotors and battery give less thrust \
+     than c3's inversion assumes, sinks below the path by up to a quarter of a metre: lower, and so nearer and less oblique to the beam, which the cost counts as a gain",
 );
 
 /// Costs of all solutions at all levels: rows are solutions.

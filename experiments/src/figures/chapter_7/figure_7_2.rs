@@ -70,7 +70,7 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let right = r_wb.column(1).into_owned();
     sketch.arrow(&[position, position + right * 0.52], Look::solid(BLUE, 1.4));
     sketch.label(&(position + right * 0.52), (-4.0, 20.0), "*y*_{B}");
-    // The sensor stands in front of the body.
+    // The sensor is in front of the body.
     glyphs::face(&mut sketch, &face, &ets.receiver.aperture);
     sketch.line(&[ray.origin, face.centre], CONSTRUCTION);
     sketch.arrow(

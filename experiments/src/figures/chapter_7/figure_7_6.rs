@@ -16,7 +16,7 @@ use nalgebra::Vector2;
 pub(super) const ITEM: Item = Item {
     id: "7.6",
     title: "ETS rotation with visual feedback",
-    description: "The target stands still, [200, 100] px right of and below the image centre at the start; the nominal station turns to it: camera at 30 Hz with \
+    description: "The target is at rest, [200, 100] px right of and below the image centre at the start; the nominal station turns to it: camera at 30 Hz with \
                   30 ms latency, gimbal with lag and limits, tracking error with two poles at −1/*T*, *T* = 0.2 s. (a) Path of the image, rows down as \
                   in the image; (b) image coordinates with the designed response; (c) angles of the platform; (d) its rates.",
     kind: Kind::Plot,

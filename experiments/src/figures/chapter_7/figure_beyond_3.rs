@@ -17,8 +17,8 @@ pub(super) const ITEM: Item = Item {
     title: "Energy delivered and energy missed: the Pareto front of the crossings",
     description: "Not in the source. Crossings in 20 s at level 5, on a grid over the box of the two variables: electrical energy delivered against optical \
                   energy that passes the receiver, the hazard of overfill. (a) With the laser on all the time. (b) With the laser \
-                  switched off while the receiver catches less than a given share of the light. Marked: the minimum of *Φ*, of two and of four variables. Fronts: less \
-                  missed or more delivered than on the line is not known. Energies missed below 10^{−7} of the laser's are below what the quadrature over the \
+                  switched off while the receiver catches less than a given share of the light. Marked: the minimum of *Φ*, of two and of four variables. Fronts: no crossing found misses less \
+                  or delivers more than the line. Energies missed below 10^{−7} of the laser's are below what the quadrature over the \
                   receiver resolves: they count as equal and stand at this floor.",
     kind: Kind::Plot,
     origin: Origin::Simulated,

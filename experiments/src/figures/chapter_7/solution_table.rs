@@ -122,7 +122,7 @@ pub(super) fn table(context: &Context, case: Case) -> Result<Drawing, ItemError>
             searches - north
         ))
         .check(ENDED, ended == searches, format!("{ended} of {searches}"))
-        .note("Positions in m, velocities in m s^{−1}. A start and the solution are the decision vectors; *passes* is the side of the station on which the vehicle crosses *y* = 0, which tells the basins apart.")
+        .note("Positions in m, velocities in m s^{−1}. A start and the solution are the decision vectors; *passes* is the side of the station on which the vehicle crosses *y* = 0, which distinguishes the basins.")
         .note(BOUND_NOTE))
 }
 

@@ -364,6 +364,6 @@ pub(super) fn minima(context: &Context, cases: &[(&'static str, Case)]) -> Resul
             format!("{measured} ms for levels 1 to 5, the least of repeated calls; a fall of up to {:.0} % would count as none", 1e2 * MARGIN),
         )
         .note(BOUND_NOTE)
-        .note("Run times are of this machine and build; each is the least of calls in turns, until turns bring nothing new. Levels differ by what a derivative costs: steps and derivatives per flight are the same.");
+        .note("Run times hold for this machine and build; each is the shortest of interleaved calls, repeated until no call is faster. Levels differ by what a derivative costs: steps and derivatives per flight are the same.");
     noted(drawing, timed, effort)
 }

@@ -33,7 +33,7 @@ const LEVEL: Claim = Claim::holds(
 );
 const LEVEL_VERY_POOR: Claim = Claim::does_not_hold(
     "with very poor sensors too no lower level has errors smaller than level 5 by more than a per cent",
-    "there the levels differ by less than four flights can tell: level 3 happens to have a smaller tilt error",
+    "there the levels differ by less than four flights can resolve: level 3 happens to have a smaller tilt error",
 );
 const SENSORS_FIRST: Claim = Claim::does_not_hold(
     "the sensors matter more than the level: from good to very poor every error grows by a larger factor than from level 5 to the worst level",

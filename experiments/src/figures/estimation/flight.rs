@@ -92,7 +92,7 @@ pub(super) fn first(
 }
 
 impl Truth {
-    /// What a filter of any kind is first told.
+    /// The initial estimate of any filter.
     pub(super) fn told(&self) -> (&Snapshot<f64>, &Input<f64>) {
         (&self.start, &self.input)
     }

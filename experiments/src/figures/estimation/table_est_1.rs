@@ -14,7 +14,7 @@ pub(super) const ITEM: Item = Item {
     id: "table-est.1",
     title: "State estimation: errors and consistency by the filter's level and by the quality of its sensors",
     description: "Root mean square errors on flights of level 5; normalised estimation error squared (NEES) of the rigid body at the end, per \
-                  degree of freedom, and normalised innovations squared (NIS) per reading: both 1 for a filter that errs as it says. \
+                  degree of freedom, and normalised innovations squared (NIS) per reading: both 1 for a consistent filter. \
                   Factors are those on the truth's noise of rates and disturbance. Four flights; one for the unscented filter.",
     kind: Kind::Table,
     origin: Origin::Simulated,

@@ -94,28 +94,28 @@ fn exact_bad_options_are_named() {
     };
     let cases = [
         (
-            "`starts` = 0",
+            "`starts` must be at least 1",
             TuningOptions {
                 starts: 0,
                 ..good.clone()
             },
         ),
         (
-            "`flights` = 0",
+            "`flights` must be at least 1",
             TuningOptions {
                 flights: 0,
                 ..good.clone()
             },
         ),
         (
-            "`yaw.step` = 0",
+            "`yaw.step` must be finite and not zero",
             TuningOptions {
                 yaw: far(0.0),
                 ..good.clone()
             },
         ),
         (
-            "`yaw.step` = NaN",
+            "`yaw.step` must be finite and not zero, got NaN",
             TuningOptions {
                 yaw: far(f64::NAN),
                 ..good.clone()
@@ -129,28 +129,28 @@ fn exact_bad_options_are_named() {
             },
         ),
         (
-            "not -1 s",
+            "got -1 s",
             TuningOptions {
                 height: slow(-1.0),
                 ..good.clone()
             },
         ),
         (
-            "`step_s` = 0.1 makes 32 samples",
+            "got 32 from 0.1 s",
             TuningOptions {
                 step_s: 0.1,
                 ..good.clone()
             },
         ),
         (
-            "`step_s` = 0 ",
+            "from 0 s",
             TuningOptions {
                 step_s: 0.0,
                 ..good.clone()
             },
         ),
         (
-            "`step_s` = NaN",
+            "from NaN s",
             TuningOptions {
                 step_s: f64::NAN,
                 ..good.clone()
