@@ -8,7 +8,7 @@ use crate::figures;
 use crate::item::{Context, ItemError};
 use crate::plot::{Figure, Panel, series_style};
 use quad_dynamics::Vehicle;
-use quad_dynamics::vehicle::file::VehicleFile;
+use quad_dynamics::vehicle::VehicleFile;
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::fs;
@@ -43,9 +43,12 @@ impl Subject {
         let path = context.data(crate::vehicle::NOMINAL_VEHICLE);
         let text =
             fs::read_to_string(&path).map_err(|e| ItemError::new(format!("{}: {e}", path.display())))?;
-        let nominal = VehicleFile::from_toml_str(&text, crate::vehicle::NOMINAL_VEHICLE)?;
+        let nominal = VehicleFile::parse(&text, crate::vehicle::NOMINAL_VEHICLE)?;
         let mut truth = nominal.clone();
-        truth.airframe.centre_of_mass_m.value = TRUE_CENTRE_OF_MASS_M;
+        let centre = truth.airframe.centre_of_mass.iter_mut();
+        centre
+            .zip(TRUE_CENTRE_OF_MASS_M)
+            .for_each(|(number, value)| number.value = value);
         let vehicle = Vehicle::from_file(&truth, "the true vehicle")?;
         Ok(Self {
             nominal,
@@ -134,10 +137,6 @@ fn raw(m: &Measurements, out: &Path) -> Result<(), ItemError> {
 /// The table of the identified numbers beside the truth. Where the true number is that of a working point (rotor dynamics: hover,
 /// the mean of the excitation) or of a fit (cubics, gains), the nominal file's derivation of it is the truth.
 fn report(found: &Identified, truth: &VehicleFile, seed: u64) -> Result<String, ItemError> {
-    let table: toml::Table = truth
-        .to_toml()
-        .parse()
-        .map_err(|e| ItemError::new(format!("{e}")))?;
     let mut text = format!(
         "# Identification of the whole vehicle\n\nVirtual laboratory, seed {seed}. Intervals of 95 %: one in twenty is \
          expected to miss.\n\n| number | unit | estimate | standard error | 95 % interval | truth | inside? |\n\
@@ -145,7 +144,10 @@ fn report(found: &Identified, truth: &VehicleFile, seed: u64) -> Result<String, 
     );
     let mut inside = 0;
     for p in &found.parameters {
-        let truth = number(&table, p.key).ok_or_else(|| ItemError::new(format!("no number {}", p.key)))?;
+        let truth = truth.get(p.key);
+        let truth = truth
+            .ok_or_else(|| ItemError::new(format!("no number {}", p.key)))?
+            .value;
         let interval = p.estimate.interval();
         let contains = interval.contains(truth);
         inside += usize::from(contains);
@@ -190,20 +192,9 @@ fn cell_table(cells: &Cells) -> String {
     text
 }
 
-/// A number of a vehicle file by its key, `group.name` or `group.name[i]`.
-fn number(table: &toml::Table, key: &str) -> Option<f64> {
-    let (path, index) = match key.split_once('[') {
-        Some((path, rest)) => (path, Some(rest.trim_end_matches(']').parse::<usize>().ok()?)),
-        None => (key, None),
-    };
-    let (group, name) = path.split_once('.')?;
-    let value = table.get(group)?.get(name)?.get("value")?;
-    index.map_or(Some(value), |i| value.get(i))?.as_float()
-}
-
 /// The static sweep and the identified cubic.
 fn picture(cells: &Cells, m: &Measurements, vehicle: &Vehicle) -> Result<Figure, ItemError> {
-    let [k1, k2, k3] = vehicle
+    let cubic = vehicle
         .require_polynomial_rotor("the plot of the identified thrust")?
         .thrust;
     let minimum = vehicle.pwm.minimum;
@@ -214,7 +205,7 @@ fn picture(cells: &Cells, m: &Measurements, vehicle: &Vehicle) -> Result<Figure,
         .collect();
     let end = measured.iter().map(|p| p.0).fold(0.0, f64::max);
     let curve = (0..=200).map(|i| end * f64::from(i) / 200.0);
-    let curve: Vec<(f64, f64)> = curve.map(|x| (x, ((k3 * x + k2) * x + k1) * x)).collect();
+    let curve: Vec<(f64, f64)> = curve.map(|x| (x, cubic.value(x))).collect();
     let panel = Panel::new(
         "Effective voltage *x* = (*ū* − *ū*_{min}) *V*_b, V",
         "Thrust *T*, N",

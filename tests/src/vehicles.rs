@@ -5,13 +5,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
-use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::{
-    Airframe, ArmParameters, BatteryParameters, DragParameters, Environment, LinearRotorParameters,
-    MotorParameters, PolynomialRotorParameters, PropellerParameters, PwmRange, RotorDynamicsParameters,
-    RotorMount, Spin,
+    Airframe, ArmParameters, BatteryParameters, Environment, LinearRotorParameters,
+    PolynomialRotorParameters, PropellerParameters, PwmRange, RotorMount, Spin,
 };
+use quad_dynamics::{Drag, Vehicle};
 use quad_kinematics::Quaternion;
+use quad_rotor::{Cubic, Motor, RotorDynamics};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 const GRAVITY: f64 = 9.81;
@@ -147,12 +147,12 @@ impl RotorFactors {
         }
     }
 
-    fn dynamics(&self) -> RotorDynamicsParameters {
+    fn dynamics(&self) -> RotorDynamics<f64> {
         let w = self.bandwidth;
         let [thrust, torque] = self
             .second_pole
             .map(|factor| (w * (1.0 + factor), w * w * factor));
-        RotorDynamicsParameters {
+        RotorDynamics {
             thrust_c1: thrust.0,
             thrust_c2: thrust.1,
             torque_c1: torque.1 / (self.zero * w),
@@ -169,6 +169,8 @@ impl RotorFactors {
         let [linear, cubic] = self.shares;
         let thrust = [linear / x, (1.0 - linear - cubic) / (x * x), cubic / (x * x * x)]
             .map(|term| term * full_thrust);
+        let [k1, k2, k3] = thrust;
+        let thrust = Cubic { k1, k2, k3 };
         PolynomialRotorParameters {
             thrust,
             torque: thrust.map(|term| term * self.torque_per_thrust * arm),
@@ -186,12 +188,9 @@ impl RotorFactors {
 
     /// A motor that hovers at the drawn share of the voltage, loses a tenth of it in copper, and has the
     /// drawn bandwidth there.
-    fn motor(&self, weight: f64, arm: f64, pwm: &PwmRange) -> MotorParameters {
-        let propeller = self.propeller(arm);
-        let (k_t, k_q) = (
-            propeller.thrust_constant(AIR_DENSITY),
-            propeller.torque_constant(AIR_DENSITY),
-        );
+    fn motor(&self, weight: f64, arm: f64, pwm: &PwmRange) -> Motor<f64> {
+        let law = self.propeller(arm).law(AIR_DENSITY);
+        let (k_t, k_q) = (law.thrust_per_speed_squared, law.torque_per_speed_squared);
         let speed = (weight / 4.0 / k_t).sqrt();
         let volts = self.hover_voltage * self.voltage;
         let velocity_constant = speed / (0.9 * volts);
@@ -199,7 +198,7 @@ impl RotorFactors {
         let no_load_current = 0.05 * current;
         let resistance = 0.1 * volts / (current + no_load_current);
         let damping = 1.0 / (resistance * velocity_constant.powi(2)) + 2.0 * k_q * speed;
-        MotorParameters {
+        Motor {
             velocity_constant,
             resistance,
             no_load_current,
@@ -210,7 +209,7 @@ impl RotorFactors {
     }
 
     /// A pack that sags by a twentieth of its voltage in hover and drops a tenth soon after full.
-    fn battery(&self, motor: &MotorParameters, weight: f64, arm: f64) -> BatteryParameters {
+    fn battery(&self, motor: &Motor<f64>, weight: f64, arm: f64) -> BatteryParameters {
         let torque = self.torque_per_thrust * arm * weight / 4.0;
         let hover_current =
             4.0 * self.hover_voltage * (motor.velocity_constant * torque + motor.no_load_current);
@@ -236,14 +235,12 @@ fn pwm() -> impl Strategy<Value = PwmRange> {
 }
 
 /// Drag equal to the weight at 10 to 25 m/s; damping that halves a rate in about a second.
-fn drag(mass: f64, arm: f64) -> impl Strategy<Value = DragParameters> {
+fn drag(mass: f64, arm: f64) -> impl Strategy<Value = Drag<f64>> {
     let speed = || 10.0..25.0_f64;
     let damping = || 0.02..0.1_f64;
-    ([speed(), speed(), speed()], [damping(), damping(), damping()]).prop_map(move |(speed, damping)| {
-        DragParameters {
-            quadratic: Vector3::from(speed).map(|v| mass * GRAVITY / (v * v)),
-            rate_damping: Vector3::from(damping) * (mass * arm * arm),
-        }
+    ([speed(), speed(), speed()], [damping(), damping(), damping()]).prop_map(move |(speed, damping)| Drag {
+        quadratic: Vector3::from(speed).map(|v| mass * GRAVITY / (v * v)),
+        rate_damping: Vector3::from(damping) * (mass * arm * arm),
     })
 }
 
@@ -273,7 +270,7 @@ pub fn vehicle() -> impl Strategy<Value = Vehicle> {
                 };
                 let rotors = layout.map(|(hub, spin)| RotorMount {
                     name: "drawn".to_owned(),
-                    position: hub * arm - centre_of_mass,
+                    hub_position: hub * arm,
                     spin,
                 });
                 let voltage = factors.voltage * REFERENCE_VOLTAGE * (mass / REFERENCE_MASS).cbrt();
@@ -287,7 +284,7 @@ fn assemble(
     rotors: [RotorMount; 4],
     pwm: PwmRange,
     factors: &RotorFactors,
-    drag: DragParameters,
+    drag: Drag<f64>,
 ) -> Vehicle {
     let (weight, arm) = (airframe.mass * GRAVITY, airframe.arm_length);
     let motor = factors.motor(weight, arm, &pwm);

@@ -9,7 +9,7 @@ use optim::{Evolution, EvolutionSettings, Limits, minimise};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let file = RoomFile::from_toml_str(RoomFile::TEMPLATE)?;
+    let file = RoomFile::from_toml_str(RoomFile::TEMPLATE, "template")?;
     let (task, rig) = (file.task()?, file.wall_rig()?);
     let percent = |decision: &[f64]| -> Result<f64, Box<dyn Error>> {
         Ok(1e2 * task.coverage(&rig.cameras(decision))?.fraction)

@@ -24,7 +24,7 @@
 //! use coverage::RoomFile;
 //! use optim::{Evolution, EvolutionSettings, Limits, minimise};
 //!
-//! let file = RoomFile::from_toml_str(RoomFile::TEMPLATE)?;
+//! let file = RoomFile::from_toml_str(RoomFile::TEMPLATE, "template")?;
 //! let (task, rig) = (file.task()?, file.wall_rig()?);
 //! let guess = task.coverage(&rig.cameras(&rig.first_guess()))?;
 //!

@@ -2,6 +2,7 @@
 
 use crate::{Camera, CoverageError, Lens, Room, Task, Volume, WallRig};
 use nalgebra::Vector3;
+use provenance::{ReadError, from_toml};
 use serde::Deserialize;
 
 /// A room, the volume to be covered, and its cameras, as in a TOML file; [`RoomFile::TEMPLATE`] explains the keys.
@@ -81,12 +82,12 @@ impl RoomFile {
     /// A commented file to start from.
     pub const TEMPLATE: &str = include_str!("../template.toml");
 
-    /// Reads a file's text.
+    /// Reads a file's text; `origin` is its name in messages.
     ///
     /// # Errors
     /// Text that is not TOML, an unknown or missing key, a value of another type; with line and column.
-    pub fn from_toml_str(text: &str) -> Result<Self, toml::de::Error> {
-        toml::from_str(text)
+    pub fn from_toml_str(text: &str, origin: &str) -> Result<Self, ReadError> {
+        from_toml(text, origin)
     }
 
     /// What should be covered.

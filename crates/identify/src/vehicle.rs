@@ -1,8 +1,8 @@
 //! The vehicle file with the identified numbers: what else the user's file says, comments too, stays as it is.
 
-use crate::output::Found;
+use crate::output::{Answer, Found};
 use quad_dynamics::Vehicle;
-use quad_dynamics::vehicle::file::VehicleFile;
+use quad_dynamics::vehicle::VehicleFile;
 use std::error::Error;
 use std::path::Path;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, Value};
@@ -12,12 +12,11 @@ fn text(path: &Path) -> Result<String, Box<dyn Error>> {
     output::read_text(path, output::TEXT_LIMIT).map_err(|e| format!("{}: {e}", path.display()).into())
 }
 
-/// Reads a vehicle file.
-pub(crate) fn read(path: &Path) -> Result<VehicleFile, Box<dyn Error>> {
-    Ok(VehicleFile::from_toml_str(
-        &text(path)?,
-        &path.display().to_string(),
-    )?)
+/// Reads a vehicle file; warns where its numbers state no source.
+pub(crate) fn read(path: &Path, answer: &mut Answer) -> Result<VehicleFile, Box<dyn Error>> {
+    let file = VehicleFile::parse(&text(path)?, &path.display().to_string())?;
+    answer.warn(file.unstated_warning().as_slice());
+    Ok(file)
 }
 
 /// The text of the vehicle file `vehicle` with the identified numbers.
@@ -36,7 +35,7 @@ fn updated(
     found: &[Found],
     source: impl Fn(&Found) -> String,
 ) -> Result<String, Box<dyn Error>> {
-    VehicleFile::from_toml_str(text, origin)?;
+    VehicleFile::parse(text, origin)?;
     let mut document: DocumentMut = text.parse()?;
     for number in found {
         let Found { key, estimate, .. } = number;
@@ -47,8 +46,9 @@ fn updated(
             Some((name, rest)) => (name, rest.trim_end_matches(']').parse::<usize>().ok()),
             None => (name, None),
         };
-        let entry = entry(&mut document, group, name)
-            .ok_or_else(|| format!("{origin}: `{group}.{name}` must be a table with value and source"))?;
+        let (entry, index) = entry(&mut document, group, name, index).ok_or_else(|| {
+            format!("{origin}: `{group}.{name}` must be a number, or a table with value and source")
+        })?;
         let numbers = [
             ("value", estimate.value),
             ("standard_error", estimate.standard_error),
@@ -63,19 +63,38 @@ fn updated(
         entry.fmt();
     }
     let text = document.to_string();
-    let file = VehicleFile::from_toml_str(&text, origin)?;
+    let file = VehicleFile::parse(&text, origin)?;
     Vehicle::from_file(&file, origin)?;
     Ok(text)
 }
 
-/// A number of the file; group and number are made if they are not there.
-fn entry<'a>(document: &'a mut DocumentMut, group: &str, name: &str) -> Option<&'a mut dyn TableLike> {
+/// The table of a number, and of which of its components; group and number are made if they are not there.
+fn entry<'a>(
+    document: &'a mut DocumentMut,
+    group: &str,
+    name: &str,
+    index: Option<usize>,
+) -> Option<(&'a mut dyn TableLike, Option<usize>)> {
     let group = document
         .entry(group)
         .or_insert_with(|| Item::Table(Table::new()))
         .as_table_like_mut()?;
     let made = || Item::Value(Value::InlineTable(InlineTable::new()));
-    group.entry(name).or_insert_with(made).as_table_like_mut()
+    let number = group.entry(name).or_insert_with(made);
+    // Each component with a source of its own.
+    let of_its_own = |array: &Array| array.iter().all(Value::is_inline_table);
+    if let (Some(k), true) = (index, number.as_array().is_some_and(of_its_own)) {
+        let component = number.as_array_mut()?.get_mut(k)?.as_inline_table_mut()?;
+        return Some((component, None));
+    }
+    // A plain value makes room for its source.
+    let plain = number.as_value().filter(|value| !value.is_inline_table());
+    if let Some(plain) = plain.cloned() {
+        let mut table = InlineTable::new();
+        table.insert("value", plain);
+        *number = Item::Value(Value::InlineTable(table));
+    }
+    Some((number.as_table_like_mut()?, index))
 }
 
 /// Sets a value in its place, or at the end.
@@ -106,7 +125,6 @@ fn set_component(entry: &mut dyn TableLike, key: &str, index: usize, number: f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::Answer;
     use sysid::Estimate;
 
     const NOMINAL: &str = quad_dynamics::vehicle::builtin::QBALL_X4_TOML;
@@ -137,21 +155,43 @@ mod tests {
         );
     }
 
+    /// A plain number and a plain vector become tables; components that were not identified keep their values.
+    #[test]
+    fn exact_plain_numbers_get_a_source() {
+        let plain: String = NOMINAL
+            .lines()
+            .map(|line| match line.split_once(" = ").map(|(key, _)| key) {
+                Some("inertia_xx_kg_m2") => "inertia_xx_kg_m2 = 0.03\n".to_owned(),
+                Some("centre_of_mass_m") => "centre_of_mass_m = [0.001, 0.0, 0.003]\n".to_owned(),
+                _ => format!("{line}\n"),
+            })
+            .collect();
+        let mut answer = Answer::default();
+        answer.push("airframe.inertia_xx_kg_m2", "kg m²", Estimate::known(0.031, 2e-4));
+        answer.push("airframe.centre_of_mass_m[1]", "m", Estimate::known(0.002, 1e-4));
+        let text = updated(&plain, "plain", &answer.found, |_| "by hand".to_owned()).unwrap();
+        let file = VehicleFile::parse(&text, "new").unwrap();
+        let inertia = &file.airframe.inertia.m11;
+        assert_eq!((inertia.value, inertia.source.as_str()), (0.031, "by hand"));
+        let centre = file.airframe.centre_of_mass.map(|number| number.value);
+        assert_eq!(centre.as_slice(), [0.001, 0.002, 0.003]);
+    }
+
     #[test]
     fn exact_a_missing_group_is_made_and_half_a_group_is_refused() {
         let start = NOMINAL.find("[rotor_dynamics]").unwrap();
         let end = NOMINAL.find("[polynomial_rotor]").unwrap();
         let without = format!("{}{}", &NOMINAL[..start], &NOMINAL[end..]);
-        let file = VehicleFile::from_toml_str(NOMINAL, "nominal").unwrap();
+        let file = VehicleFile::parse(NOMINAL, "nominal").unwrap();
         let old = file.rotor_dynamics.unwrap();
         let mut answer = Answer::default();
         for (key, value) in [
-            ("thrust_c1_per_s", old.thrust_c1_per_s.value),
-            ("thrust_c2_per_s2", old.thrust_c2_per_s2.value),
-            ("torque_c1_per_s", old.torque_c1_per_s.value),
-            ("torque_c2_per_s2", old.torque_c2_per_s2.value),
-            ("torque_c3_per_s", old.torque_c3_per_s.value),
-            ("torque_c4_per_s2", old.torque_c4_per_s2.value),
+            ("thrust_c1_per_s", old.thrust_c1.value),
+            ("thrust_c2_per_s2", old.thrust_c2.value),
+            ("torque_c1_per_s", old.torque_c1.value),
+            ("torque_c2_per_s2", old.torque_c2.value),
+            ("torque_c3_per_s", old.torque_c3.value),
+            ("torque_c4_per_s2", old.torque_c4.value),
         ] {
             answer.push(
                 &format!("rotor_dynamics.{key}"),
@@ -160,11 +200,8 @@ mod tests {
             );
         }
         let text = updated(&without, "without", &answer.found, |_| "identified".to_owned()).unwrap();
-        let new = VehicleFile::from_toml_str(&text, "new").unwrap();
-        assert_eq!(
-            new.rotor_dynamics.unwrap().torque_c1_per_s.value,
-            old.torque_c1_per_s.value
-        );
+        let new = VehicleFile::parse(&text, "new").unwrap();
+        assert_eq!(new.rotor_dynamics.unwrap().torque_c1.value, old.torque_c1.value);
         answer.found.truncate(3);
         assert!(updated(&without, "without", &answer.found, |_| "identified".to_owned()).is_err());
     }

@@ -58,12 +58,11 @@ impl<R: Real> RotorGeometry<R> {
     }
 
     pub(crate) fn with(vehicle: &Vehicle<R>) -> Self {
-        let rotor =
-            |f: fn(&crate::vehicle::RotorMount<R>) -> R| std::array::from_fn(|i| f(&vehicle.rotors[i]));
+        let hubs = vehicle.hubs();
         Self {
-            forward: rotor(|r| r.position.x),
-            right: rotor(|r| r.position.y),
-            spin: rotor(|r| constant(r.spin.sign())),
+            forward: hubs.map(|hub| hub.x),
+            right: hubs.map(|hub| hub.y),
+            spin: vehicle.rotors.each_ref().map(|rotor| constant(rotor.spin.sign())),
         }
     }
 }
@@ -157,11 +156,7 @@ fn rotor_set<R: Real, M: FamilyRotor<R>>(
 }
 
 fn drag<R: Real>(vehicle: &Vehicle<R>) -> Result<Drag<R>, BuildError> {
-    let drag = vehicle.require_drag("the phenomenon drag")?;
-    Ok(Drag {
-        quadratic: drag.quadratic,
-        rate_damping: drag.rate_damping,
-    })
+    Ok(*vehicle.require_drag("the phenomenon drag")?)
 }
 
 fn spinning<R: Real>(

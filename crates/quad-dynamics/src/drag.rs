@@ -17,7 +17,7 @@ use quad_math::Real;
 
 /// Drag of the airframe and damping of its rates: `F_i = −k_i |v_i| v_i`, `M_i = −d_i (ω_i − ω_air,i)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drag<R: Real> {
+pub struct Drag<R> {
     /// `k`, N s²/m², per body axis.
     pub quadratic: Vector3<R>,
     /// `d`, N m s/rad, per body axis.

@@ -42,7 +42,7 @@ impl<R: Real> GroundEffect<R> {
         let propeller = vehicle.require_propeller("the phenomenon ground-effect")?;
         Ok(Self {
             radius: propeller.diameter / constant(2.0),
-            hubs: std::array::from_fn(|i| vehicle.rotors[i].position),
+            hubs: vehicle.hubs(),
         })
     }
 

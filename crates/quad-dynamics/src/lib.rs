@@ -133,6 +133,12 @@ pub use shear::{Shear, ShearError, ShearProfile};
 pub use trim::Trim;
 pub use vehicle::{UncertainVehicle, Vehicle, VehicleError};
 
+/// Number of rotors: the family is of quadrotors, whose control matrix is square.
+pub const ROTORS: usize = 4;
+
+/// One value for each rotor, in the order of the commands.
+pub type PerRotor<T> = [T; ROTORS];
+
 /// The README's example is tested with the documentation.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -86,7 +86,7 @@ fn exact_gyroscopic_torque_by_hand() {
         .body_rates
     };
     let propeller = qball().propeller.expect("nominal");
-    let speed = |thrust: f64| (thrust / propeller.thrust_constant(1.225)).sqrt();
+    let speed = |thrust: f64| (thrust / propeller.law(1.225).thrust_per_speed_squared).sqrt();
     let weight = 1.4 * 9.81 / 4.0;
     let momentum = 6.5e-5 * 2.0 * (speed(weight * 4.0 / 3.0) - speed(weight * 2.0 / 3.0));
     let pitch = 2.0 * momentum / 0.03;
@@ -106,7 +106,11 @@ fn exact_spin_up_reaction_by_hand() {
     };
     let on = PhenomenonSet::none().with(Phenomenon::SpinUpReaction);
     let gains = qball().linear_rotor;
-    let k_t = qball().propeller.expect("nominal").thrust_constant(1.225);
+    let k_t = qball()
+        .propeller
+        .expect("nominal")
+        .law(1.225)
+        .thrust_per_speed_squared;
     let speed = (1.4 * 9.81 / 4.0 / k_t).sqrt();
     let spin = gains.bandwidth * gains.thrust_gain * 0.001 / (2.0 * k_t * speed);
     // Thrust and torque have not changed yet: the reaction stands alone.
@@ -190,7 +194,6 @@ fn exact_thrust_rate_of_level_3() {
 fn exact_hover_with_the_centre_of_mass_ahead() {
     let mut vehicle = qball();
     vehicle.airframe.centre_of_mass.x = 0.02;
-    vehicle.rotors.iter_mut().for_each(|r| r.position.x -= 0.02);
     let model = Level2::<f64>::build(&vehicle, &PhenomenonSet::none()).expect("nominal");
     let thrusts = model
         .hover(Vector3::zeros(), 0.0)

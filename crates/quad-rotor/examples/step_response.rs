@@ -54,10 +54,10 @@ const MECHANISTIC: MechanisticRotor<f64> = MechanisticRotor {
         velocity_constant: 106.8142,
         resistance: 0.126,
         no_load_current: 1.1,
+        rotor_inertia: 6.5e-5,
         controller_lag: 0.01,
         full_voltage_duty: 0.05,
     },
-    inertia: 6.5e-5,
     zero_thrust_offset: ZERO_THRUST_OFFSET,
 };
 

@@ -18,8 +18,8 @@ use crate::{RotorInput, RotorModel, RotorOutput, SpinUp};
 use quad_math::{Flat, Rate, Real, State, constant};
 
 /// Denominators and zero of the thrust and torque responses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RotorDynamics<R: Real> {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RotorDynamics<R> {
     /// `c_T1`, 1/s.
     pub thrust_c1: R,
     /// `c_T2`, 1/s².
@@ -110,14 +110,26 @@ pub struct LinearRotor<R: Real> {
 }
 
 /// A cubic without constant term, `k_1 x + k_2 x² + k_3 x³`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cubic<R: Real> {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cubic<R> {
     /// `k_1`.
     pub k1: R,
     /// `k_2`.
     pub k2: R,
     /// `k_3`.
     pub k3: R,
+}
+
+impl<N> Cubic<N> {
+    /// The cubic with each coefficient taken through `f`.
+    #[must_use]
+    pub fn map<M>(self, f: impl Fn(N) -> M) -> Cubic<M> {
+        Cubic {
+            k1: f(self.k1),
+            k2: f(self.k2),
+            k3: f(self.k3),
+        }
+    }
 }
 
 impl<R: Real> Cubic<R> {
@@ -131,6 +143,18 @@ impl<R: Real> Cubic<R> {
     #[inline(always)]
     pub fn slope(&self, x: R) -> R {
         (self.k3 * x * constant(3.0) + self.k2 * constant(2.0)) * x + self.k1
+    }
+
+    /// `[k_1, k_2, k_3]`.
+    #[must_use]
+    pub fn coefficients(&self) -> [R; 3] {
+        [self.k1, self.k2, self.k3]
+    }
+
+    /// The cubic with every value so many times as large.
+    #[must_use]
+    pub fn scaled(&self, factor: R) -> Self {
+        self.map(|k| k * factor)
     }
 
     /// The `x` with `value(x) = y`, `y ≥ 0`, by Newton's method from the root of the quadratic part.

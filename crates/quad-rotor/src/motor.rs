@@ -16,14 +16,16 @@ use crate::{Propeller, RotorInput, RotorModel, RotorOutput, SpinUp};
 use quad_math::{Flat, Rate, Real, State, constant};
 
 /// A brushless direct-current motor with its controller.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motor<R: Real> {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motor<R> {
     /// Speed constant `K_v`, rad/(s V); its inverse is the torque constant, N m/A.
     pub velocity_constant: R,
     /// Resistance `R` of windings, controller and leads together, ohm.
     pub resistance: R,
     /// No-load current `I_0`, A.
     pub no_load_current: R,
+    /// Moment of inertia `I_R` of propeller and motor bell about the spin axis, kg m².
+    pub rotor_inertia: R,
     /// Time constant `τ_c` of the motor controller, s.
     pub controller_lag: R,
     /// Duty `d_full` above the bottom of the range at which the whole battery voltage is applied.
@@ -83,8 +85,6 @@ pub struct MechanisticRotor<R: Real> {
     pub propeller: Propeller<R>,
     /// The motor and its controller.
     pub motor: Motor<R>,
-    /// Moment of inertia `I_R` of propeller and motor bell about the spin axis, kg m².
-    pub inertia: R,
     /// Zero-thrust duty above the bottom of the range, `ū_0 − ū_min`.
     pub zero_thrust_offset: R,
 }
@@ -113,7 +113,7 @@ impl<R: Real> MechanisticRotor<R> {
     pub fn bandwidth(&self, speed: R) -> R {
         let m = &self.motor;
         let damping = R::one() / (m.resistance * m.velocity_constant * m.velocity_constant);
-        (self.propeller.torque_per_speed_squared * speed * constant(2.0) + damping) / self.inertia
+        (self.propeller.torque_per_speed_squared * speed * constant(2.0) + damping) / self.motor.rotor_inertia
     }
 
     #[inline(always)]
@@ -139,7 +139,7 @@ impl<R: Real> RotorModel<R> for MechanisticRotor<R> {
     fn derivative(&self, state: &SpinState<R>, input: &RotorInput<R>) -> SpinRate<R> {
         let current = self.motor.current(state.effective_voltage, state.speed);
         let net = self.motor.torque(current) - self.propeller.torque(state.speed);
-        let speed_rate = net / self.inertia;
+        let speed_rate = net / self.motor.rotor_inertia;
         let running = state.speed.simd_gt(R::zero());
         SpinRate {
             speed: speed_rate.select(running, speed_rate.simd_max(R::zero())),

@@ -17,10 +17,10 @@ fn mechanistic<R: Real>() -> MechanisticRotor<R> {
             velocity_constant: constant(1020.0 * std::f64::consts::TAU / 60.0),
             resistance: constant(0.126),
             no_load_current: constant(1.1),
+            rotor_inertia: constant(6.5e-5),
             controller_lag: constant(0.01),
             full_voltage_duty: constant(0.05),
         },
-        inertia: constant(6.5e-5),
         zero_thrust_offset: constant(0.01),
     }
 }
@@ -157,7 +157,7 @@ proptest! {
         let state = SpinState { speed, effective_voltage };
         let input = RotorInput { command: 0.02, voltage: 11.1 };
         let current = m.motor.current(effective_voltage, speed);
-        let spin = m.inertia * m.derivative(&state, &input).speed * speed;
+        let spin = m.motor.rotor_inertia * m.derivative(&state, &input).speed * speed;
         let air = m.propeller.torque(speed) * speed;
         let no_load = m.motor.no_load_current / m.motor.velocity_constant * speed;
         let copper = m.motor.resistance * current * current;

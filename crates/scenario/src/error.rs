@@ -1,6 +1,6 @@
 //! Why a scenario can't be read, built or changed.
 
-use crate::read::Place;
+use provenance::ReadError;
 use quad_estimation::sensor::SensorError;
 use quad_ndi::{ControllerError, TrajectoryError};
 use sifre::quadrotor::QuadrotorError;
@@ -10,42 +10,9 @@ use wpt_optim::ProblemError;
 /// Why a scenario can't be read or built.
 #[derive(Debug, thiserror::Error)]
 pub enum ScenarioError {
-    /// Not TOML.
-    #[error("{place}: not TOML: {message}")]
-    Syntax {
-        /// Where.
-        place: Place,
-        /// What the parser says.
-        message: String,
-    },
-    /// A required key is missing.
-    #[error("{place}: the key `{key}` is missing")]
-    MissingKey {
-        /// Where.
-        place: Place,
-        /// The key.
-        key: String,
-    },
-    /// An unknown key.
-    #[error("{place}: unknown key `{key}`; {expected}")]
-    UnknownKey {
-        /// Where.
-        place: Place,
-        /// The key.
-        key: String,
-        /// The keys that exist.
-        expected: String,
-    },
-    /// A value that its key can't have.
-    #[error("{place}: `{key}`: {message}")]
-    Value {
-        /// Where.
-        place: Place,
-        /// The key.
-        key: String,
-        /// Why not.
-        message: String,
-    },
+    /// Not TOML, a missing or unknown key, or a value that its key can't have.
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// A duration that the clock doesn't have.
     #[error("`duration_s` = {duration_s:?}: {source}")]
     Duration {

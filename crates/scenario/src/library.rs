@@ -3,8 +3,8 @@
 use crate::error::ScenarioError;
 use crate::file::QuadrotorFile;
 use ets::Station;
-use quad_dynamics::vehicle::VehicleFile;
 use quad_dynamics::vehicle::builtin::{CRAZYFLIE_TOML, QBALL_X4_TOML, QBALL_X4_VENDOR_TOML};
+use quad_dynamics::vehicle::{Sourced, VehicleFile};
 use quad_dynamics::{Vehicle, VehicleError};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
@@ -75,6 +75,8 @@ pub(crate) struct Library<'a> {
     /// By name, and by the scenario's own parameters.
     vehicles: RefCell<HashMap<(String, String), Arc<Vehicle>>>,
     stations: RefCell<HashMap<String, Station>>,
+    /// One for each vehicle whose numbers state no source.
+    warnings: RefCell<Vec<String>>,
 }
 
 impl<'a> Library<'a> {
@@ -84,6 +86,7 @@ impl<'a> Library<'a> {
             files,
             vehicles: RefCell::default(),
             stations: RefCell::default(),
+            warnings: RefCell::default(),
         }
     }
 
@@ -101,8 +104,19 @@ impl<'a> Library<'a> {
         let SoundFile { file, origin } = vehicle_file(agent, wanted, parameters, self.files)?;
         let vehicle = Vehicle::from_file(&file, &origin).map_err(|source| refused(agent, source))?;
         let vehicle = Arc::new(vehicle);
+        if let Some(warning) = file.unstated_warning() {
+            let mut warnings = self.warnings.borrow_mut();
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
         self.vehicles.borrow_mut().insert(key, Arc::clone(&vehicle));
         Ok(vehicle)
+    }
+
+    /// What to know of the vehicles that were read.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        self.warnings.borrow().clone()
     }
 
     /// The station of an agent.
@@ -132,20 +146,17 @@ pub(crate) fn vehicle_file(
     parameters: &Table,
     files: &dyn Files,
 ) -> Result<SoundFile, ScenarioError> {
-    let mut text = text(agent, "vehicle", wanted, &VEHICLES, files)?;
-    let read = |text: &str, origin: String| {
-        let file = VehicleFile::from_toml_str(text, &origin).map_err(|source| refused(agent, source))?;
-        Ok(SoundFile { file, origin })
-    };
+    let text = text(agent, "vehicle", wanted, &VEHICLES, files)?;
+    let mut file = VehicleFile::parse(&text, wanted).map_err(|source| refused(agent, source))?;
     if parameters.is_empty() {
-        return read(&text, wanted.to_owned());
+        let origin = wanted.to_owned();
+        return Ok(SoundFile { file, origin });
     }
-    // The file itself must be sound first, so that an error in it is reported with its line.
-    Vehicle::from_toml_str(&text, wanted).map_err(|source| refused(agent, source))?;
-    let mut file: Table = toml::from_str(&text).unwrap_or_default();
+    // The file as it is must be sound first, so that a parameter isn't blamed for an error in it.
+    Vehicle::from_file(&file, wanted).map_err(|source| refused(agent, source))?;
     change(agent, &mut file, parameters, "")?;
-    text = toml::to_string(&file).unwrap_or(text);
-    read(&text, format!("{wanted} with the scenario's parameters"))
+    let origin = format!("{wanted} with the scenario's parameters");
+    Ok(SoundFile { file, origin })
 }
 
 fn refused(agent: &str, source: VehicleError) -> ScenarioError {
@@ -166,38 +177,66 @@ impl QuadrotorFile {
     }
 }
 
-/// Takes over parameters into a vehicle file: numbers take the place of values, tables are gone into.
-fn change(agent: &str, file: &mut Table, parameters: &Table, above: &str) -> Result<(), ScenarioError> {
-    for (key, wanted) in parameters {
-        let path = if above.is_empty() {
-            key.clone()
+/// Takes over parameters into a vehicle file: numbers and vectors take the place of the file's, tables are gone into.
+fn change(agent: &str, file: &mut VehicleFile, parameters: &Table, above: &str) -> Result<(), ScenarioError> {
+    for (name, wanted) in parameters {
+        let key = if above.is_empty() {
+            name.clone()
         } else {
-            format!("{above}.{key}")
+            format!("{above}.{name}")
         };
+        if let Value::Table(below) = wanted {
+            change(agent, file, below, &key)?;
+            continue;
+        }
         let refuse = |reason: String| ScenarioError::Parameter {
             agent: agent.to_owned(),
-            key: path.clone(),
+            key: key.clone(),
             reason,
         };
-        let known = || file.keys().cloned().collect::<Vec<_>>().join(", ");
-        let reason = format!("unknown key of the vehicle file; available: {}", known());
-        match (file.get_mut(key), wanted) {
-            (Some(Value::Table(sourced)), value) if sourced.contains_key("value") => {
-                sourced.insert("value".to_owned(), value.clone());
-                sourced.insert("source".to_owned(), Value::from("the scenario"));
-                sourced.remove("standard_error");
-            }
-            (Some(Value::Table(below)), Value::Table(parameters)) => {
-                change(agent, below, parameters, &path)?;
-            }
-            (Some(Value::Table(_)), _) => {
-                return Err(refuse("a table, not a number: set one of its keys".to_owned()));
-            }
-            (Some(_), _) => return Err(refuse("only numbers with a source can be set".to_owned())),
-            (None, _) => return Err(refuse(reason)),
+        let components = match wanted {
+            Value::Array(components) => components.iter().enumerate().collect(),
+            number => vec![(usize::MAX, number)],
+        };
+        for (k, component) in components {
+            let path = match k {
+                usize::MAX => key.clone(),
+                k => format!("{key}[{k}]"),
+            };
+            let number = as_number(component).ok_or_else(|| refuse("expected a number".to_owned()))?;
+            file.set(&path, &Sourced::new(number, "the scenario"))
+                .ok_or_else(|| refuse(unknown(file, &key)))?;
         }
     }
     Ok(())
+}
+
+fn as_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Float(number) => Some(*number),
+        Value::Integer(number) => Some(*number as f64),
+        _ => None,
+    }
+}
+
+/// What the vehicle file has in the place of a key that it has not: the keys of its group, or its groups.
+fn unknown(file: &VehicleFile, key: &str) -> String {
+    let group = key.split_once('.').map(|(group, _)| group);
+    let (mut groups, mut names) = (Vec::new(), Vec::new());
+    file.for_each_number(|entry, _| {
+        let (of, name) = entry.group_and_name();
+        if !groups.contains(&of) {
+            groups.push(of);
+        }
+        if Some(of) == group && !names.contains(&name) {
+            names.push(name);
+        }
+    });
+    let known = if names.is_empty() { groups } else { names };
+    format!(
+        "the vehicle file has no such number; expected one of {}",
+        known.join(", ")
+    )
 }
 
 pub(crate) fn station_error(agent: &str, source: ets::StationError) -> ScenarioError {

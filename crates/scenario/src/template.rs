@@ -2,7 +2,7 @@
 
 use crate::error::{KeyError, ScenarioError};
 use crate::file::Scenario;
-use crate::{key, read};
+use crate::key;
 use toml::{Table, Value};
 
 /// A key and its value, as in `quadrotor.alpha.level = 5`.
@@ -50,7 +50,7 @@ impl Template {
     /// # Errors
     /// As [`Scenario::from_toml_str`].
     pub fn from_toml_str(text: &str, origin: &str) -> Result<Self, ScenarioError> {
-        let (scenario, table) = read::scenario_and_table(text, origin)?;
+        let (scenario, table) = provenance::from_toml_and_table(text, origin)?;
         Ok(Self {
             origin: origin.to_owned(),
             table,

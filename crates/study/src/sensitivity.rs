@@ -23,8 +23,8 @@
 //! use quad_math::rk4_step;
 //! use study::sensitivity;
 //!
-//! let mut file = VehicleFile::from_toml_str(QBALL_X4_TOML, "qball-x4")?;
-//! file.airframe.mass_kg.standard_error = Some(0.01);
+//! let mut file = VehicleFile::parse(QBALL_X4_TOML, "qball-x4")?;
+//! file.airframe.mass.standard_error = Some(0.01);
 //! let vehicle = UncertainVehicle::of(&file, "qball-x4")?;
 //!
 //! // Height lost in a second by the commands that hold the nominal vehicle: ½ g t² per share of the mass.

@@ -20,12 +20,13 @@ pub(super) fn quadrotor(
     magnified: f64,
 ) {
     let arm = vehicle.airframe.arm_length * magnified;
-    for rotor in &vehicle.rotors {
-        let hub = position + r_wb * rotor.position * magnified;
+    let hubs = vehicle.hubs();
+    for hub in &hubs {
+        let hub = position + r_wb * hub * magnified;
         sketch.line(&[position, hub], Look::solid(GREY, 4.0));
     }
-    for rotor in &vehicle.rotors {
-        let hub = position + r_wb * (rotor.position * magnified);
+    for hub in &hubs {
+        let hub = position + r_wb * (hub * magnified);
         let plane = (r_wb.column(0).into_owned(), r_wb.column(1).into_owned());
         let disc = arc(hub, plane, PROPELLER * arm, (0.0, TAU));
         sketch.line(&disc, Look::solid(GREY, 1.0));

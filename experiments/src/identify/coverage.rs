@@ -1,6 +1,6 @@
 //! How often the whole identification's intervals contain the truth, counted over many seeds.
 
-use super::{Subject, number};
+use super::Subject;
 use crate::item::{Context, ItemError};
 use rayon::prelude::*;
 use std::fmt;
@@ -25,17 +25,12 @@ impl Coverage {
     /// As [`super::run`].
     pub fn count(context: &Context, first: u64, runs: u32) -> Result<Self, ItemError> {
         let subject = Subject::new(context)?;
-        let table: toml::Table = subject
-            .truth
-            .to_toml()
-            .parse()
-            .map_err(|e| ItemError::new(format!("{e}")))?;
         let one = |k: u32| -> Result<Vec<(&'static str, u32)>, ItemError> {
             let (_, found) = subject.identified(first + u64::from(k))?;
             let hit = |p: &sysid::pipeline::Parameter| -> Result<(&'static str, u32), ItemError> {
-                let truth =
-                    number(&table, p.key).ok_or_else(|| ItemError::new(format!("no number {}", p.key)))?;
-                Ok((p.key, u32::from(p.estimate.interval().contains(truth))))
+                let truth = subject.truth.get(p.key);
+                let truth = truth.ok_or_else(|| ItemError::new(format!("no number {}", p.key)))?;
+                Ok((p.key, u32::from(p.estimate.interval().contains(truth.value))))
             };
             found.parameters.iter().map(hit).collect()
         };

@@ -11,7 +11,7 @@ use crate::item::{Context, ItemError};
 use crate::vehicle::{NOMINAL_VEHICLE, load_vehicle};
 use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::derive::{SteadyRotor, rad_per_s};
-use quad_rotor::{MechanisticRotor, Propeller};
+use quad_rotor::MechanisticRotor;
 use serde::Serialize;
 use sysid::laboratory::generator;
 use sysid::laboratory::thrust_stand::{
@@ -217,22 +217,13 @@ impl RotorBench {
 impl TestedRotor {
     /// The rotor's truth in closed form.
     pub(crate) fn truth(&self, vehicle: &Vehicle) -> Result<SteadyRotor, ItemError> {
-        let MechanisticRotor {
-            propeller:
-                Propeller {
-                    thrust_per_speed_squared,
-                    torque_per_speed_squared,
-                },
-            motor,
-            inertia,
-            ..
-        } = self.stand.rotor;
+        let MechanisticRotor { propeller, motor, .. } = self.stand.rotor;
         let mut truth = SteadyRotor::of(vehicle)?;
-        truth.thrust_constant = thrust_per_speed_squared;
-        truth.torque_constant = torque_per_speed_squared;
-        truth.motor.velocity_constant = motor.velocity_constant;
-        truth.motor.resistance = motor.resistance;
-        truth.motor.rotor_inertia = inertia;
+        truth.rotor = MechanisticRotor {
+            propeller,
+            motor,
+            ..truth.rotor
+        };
         Ok(truth)
     }
 

@@ -5,7 +5,7 @@ use family_tests::{FamilyFour, draw, flat, phenomena, vehicle, without_offset};
 use proptest::prelude::*;
 use quad_dynamics::{Level4, Level5, QuadrotorModel, QuadrotorState, StateOf, Vehicle};
 use quad_math::System;
-use quad_rotor::BatteryState;
+use quad_rotor::{BatteryState, Cubic};
 
 /// A vehicle whose polynomial is the line of its linear rotor: `k_1 x = (K_T / V_b) · u V_b`.
 fn with_linear_polynomial() -> impl Strategy<Value = Vehicle> {
@@ -13,8 +13,9 @@ fn with_linear_polynomial() -> impl Strategy<Value = Vehicle> {
         let voltage = vehicle.battery.as_ref().unwrap().nominal_voltage;
         let gains = vehicle.linear_rotor;
         let polynomial = vehicle.polynomial_rotor.as_mut().unwrap();
-        polynomial.thrust = [gains.thrust_gain / voltage, 0.0, 0.0];
-        polynomial.torque = [gains.torque_gain / voltage, 0.0, 0.0];
+        let line = |k1| Cubic { k1, k2: 0.0, k3: 0.0 };
+        polynomial.thrust = line(gains.thrust_gain / voltage);
+        polynomial.torque = line(gains.torque_gain / voltage);
         vehicle
     })
 }

@@ -98,7 +98,7 @@ impl Mirror {
         airframe.inertia = p * airframe.inertia * p.transpose();
         airframe.centre_of_mass = p * airframe.centre_of_mass;
         for rotor in &mut mirrored.rotors {
-            rotor.position = p * rotor.position;
+            rotor.hub_position = p * rotor.hub_position;
             rotor.spin = match rotor.spin {
                 Spin::Clockwise => Spin::CounterClockwise,
                 Spin::CounterClockwise => Spin::Clockwise,

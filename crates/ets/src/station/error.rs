@@ -1,39 +1,24 @@
 //! What can be wrong with a station, each with the file, the key, the value and what would be right.
 
 use crate::ClockError;
+use provenance::{RangeError, ReadError};
 
 /// Why a station was refused. `origin` is the name of the file (or of the station, where there is no file).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StationError {
     /// Not TOML, a missing or unknown key, a value of the wrong type, an empty source.
-    #[error("{origin}:{line}: key `{key}`: {message}")]
-    Text {
-        /// Name of the file.
-        origin: String,
-        /// Line of the mistake, counted from 1.
-        line: usize,
-        /// Path of the key, or of the table that lacks one.
-        key: String,
-        /// What was found and what was expected.
-        message: String,
-    },
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// NaN, infinite, or outside what any station could have.
-    #[error("{origin}: `{key}` = {value} {unit} is not a number within {minimum} to {maximum} {unit}{hint}")]
-    OutOfRange {
+    #[error("{origin}: `{key}` = {error}")]
+    Range {
         /// Name of the file.
         origin: String,
         /// Path of the key.
         key: &'static str,
-        /// The value.
-        value: f64,
-        /// Smallest value accepted.
-        minimum: f64,
-        /// Largest value accepted.
-        maximum: f64,
-        /// Unit of the three.
-        unit: &'static str,
-        /// What may have happened; empty if there is nothing to add.
-        hint: &'static str,
+        /// Value, range and what may have happened.
+        error: RangeError,
     },
     /// An axis without travel.
     #[error(

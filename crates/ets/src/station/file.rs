@@ -1,18 +1,8 @@
 //! The station file: the TOML schema as types, every number with its source beside it.
 
 use crate::{StationError, VisibilityLaw};
-use serde::{Deserialize, Deserializer, Serialize, de::Error};
-
-/// A value with the source that says where it comes from.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sourced<T> {
-    /// The value, in the unit that ends the key.
-    pub value: T,
-    /// Where the value comes from: citation, data sheet, derivation or, said plainly, an assumption. Not empty.
-    #[serde(deserialize_with = "not_empty")]
-    pub source: String,
-}
+use provenance::{Sourced, from_toml};
+use serde::{Deserialize, Serialize};
 
 type Number = Sourced<f64>;
 type Pair = Sourced<[f64; 2]>;
@@ -185,31 +175,8 @@ impl StationFile {
     /// Reads the text of a station file; `origin` is the file's name in messages.
     ///
     /// # Errors
-    /// Not TOML, a missing or unknown key, a value of the wrong type, or an empty source, each with line and key path.
+    /// Not TOML, a missing or unknown key, a value of the wrong type, or an empty source, with line, column and key path.
     pub fn from_toml_str(text: &str, origin: &str) -> Result<Self, StationError> {
-        let refuse = |key: String, error: &toml::de::Error| StationError::Text {
-            origin: origin.to_owned(),
-            line: line(text, error.span().map_or(0, |span| span.start)),
-            key,
-            message: error.message().to_owned(),
-        };
-        let deserializer = toml::Deserializer::parse(text).map_err(|error| refuse(".".to_owned(), &error))?;
-        serde_path_to_error::deserialize(deserializer)
-            .map_err(|error| refuse(error.path().to_string(), error.inner()))
+        Ok(from_toml(text, origin)?)
     }
-}
-
-/// Line, counted from 1, of a byte in the text.
-fn line(text: &str, byte: usize) -> usize {
-    text.get(..byte).unwrap_or(text).matches('\n').count() + 1
-}
-
-fn not_empty<'de, D: Deserializer<'de>>(deserializer: D) -> Result<String, D::Error> {
-    let source = String::deserialize(deserializer)?;
-    if source.trim().is_empty() {
-        return Err(D::Error::custom(
-            "empty source: every number says where it comes from",
-        ));
-    }
-    Ok(source)
 }

@@ -12,7 +12,8 @@ mod validate;
 
 use crate::{Atmosphere, Beam, Camera, Gimbal, Pedestal, Receiver, Tracker};
 pub use error::StationError;
-pub use file::{Order, Sourced, StationFile};
+pub use file::{Order, StationFile};
+pub use provenance::Sourced;
 
 /// Text of `data/stations/ets.toml`: the project's nominal station.
 pub const NOMINAL_TOML: &str = include_str!("../../data/stations/ets.toml");

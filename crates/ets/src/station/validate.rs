@@ -6,33 +6,22 @@ use super::{Station, StationError};
 use crate::camera::MAX_SLOPE;
 use crate::{Aperture, ErrorDynamics, FrameClock, GimbalAxis};
 use nalgebra::Vector3;
+use provenance::Quantity;
 
 /// Relative tolerance of the normal's length and of the diffraction limit: six printed digits.
 const PRINTED: f64 = 1e-6;
 
-/// A number, and the range that it must lie in.
-struct Check {
-    key: &'static str,
-    value: f64,
-    unit: &'static str,
-    range: (f64, f64),
-    hint: &'static str,
-}
+/// A number, and what it must be.
+type Check = (Quantity, f64);
 
 const fn check(
     key: &'static str,
     value: f64,
     unit: &'static str,
-    range: (f64, f64),
+    (minimum, maximum): (f64, f64),
     hint: &'static str,
 ) -> Check {
-    Check {
-        key,
-        value,
-        unit,
-        range,
-        hint,
-    }
+    (Quantity::new(key, unit, minimum, maximum, hint), value)
 }
 
 impl Station {
@@ -48,19 +37,12 @@ impl Station {
             self.tracking(),
             self.light(),
         ];
-        for c in parts.into_iter().flatten() {
-            // Written so that NaN fails.
-            if !(c.value >= c.range.0 && c.value <= c.range.1) {
-                return Err(StationError::OutOfRange {
-                    origin: origin(),
-                    key: c.key,
-                    value: c.value,
-                    minimum: c.range.0,
-                    maximum: c.range.1,
-                    unit: c.unit,
-                    hint: c.hint,
-                });
-            }
+        for (quantity, value) in parts.into_iter().flatten() {
+            quantity.check(value).map_err(|error| StationError::Range {
+                origin: origin(),
+                key: quantity.key,
+                error,
+            })?;
         }
         for (axis, limits) in [("pan", &self.gimbal.pan), ("tilt", &self.gimbal.tilt)] {
             if limits.minimum >= limits.maximum {
@@ -110,7 +92,7 @@ impl Station {
 
     fn camera_checks(&self) -> Vec<Check> {
         let (camera, frames) = (&self.camera, &self.frames);
-        let focal = "; focal length over pixel pitch, are both in metres?";
+        let focal = "focal length over pixel pitch, are both in metres?";
         vec![
             check(
                 "camera.focal_length_m",
@@ -128,7 +110,7 @@ impl Station {
                 frames.latency,
                 "s",
                 (0.0, 10.0),
-                "; is this in milliseconds?",
+                "is this in milliseconds?",
             ),
             check("camera.noise_px", frames.noise, "px", (0.0, 1e3), ""),
         ]
@@ -155,7 +137,7 @@ impl Station {
                 time_constant,
                 "s",
                 (1e-4, 1e3),
-                "; is this in milliseconds?",
+                "is this in milliseconds?",
             ),
             check("tracker.damping", damping, "(dimensionless)", (0.05, 20.0), ""),
             check(
@@ -174,8 +156,8 @@ impl Station {
 
     fn light(&self) -> Vec<Check> {
         let (beam, receiver, limits) = (&self.beam, &self.receiver, &self.limits);
-        let nanometres = "; is this in nanometres?";
-        let millimetres = "; is this in millimetres?";
+        let nanometres = "is this in nanometres?";
+        let millimetres = "is this in millimetres?";
         let mut checks = vec![
             check("laser.power_w", beam.power, "W", (1e-6, 1e7), ""),
             check(
@@ -197,21 +179,21 @@ impl Station {
                 beam.divergence,
                 "rad",
                 (0.0, 0.2),
-                "; is this in milliradians?",
+                "is this in milliradians?",
             ),
             check(
                 "atmosphere.visibility_m",
                 self.atmosphere.visibility,
                 "m",
                 (1.0, 1e6),
-                "; is this in kilometres?",
+                "is this in kilometres?",
             ),
             check(
                 "receiver.efficiency",
                 receiver.efficiency,
                 "(dimensionless)",
                 (0.0, 1.0),
-                "; is this in percent?",
+                "is this in percent?",
             ),
             check("limits.range_m", limits.range, "m", (1e-2, 1e7), ""),
             check(
@@ -312,14 +294,14 @@ fn axis(keys: [&'static str; 4], axis: &GimbalAxis<f64>) -> [Check; 4] {
             axis.time_constant,
             "s",
             (1e-4, 100.0),
-            "; is this in milliseconds?",
+            "is this in milliseconds?",
         ),
         check(
             keys[1],
             axis.rate_limit.to_degrees(),
             "°/s",
             (1e-3, 1e4),
-            "; is this in rad/s?",
+            "is this in rad/s?",
         ),
         angle(keys[2], axis.minimum),
         angle(keys[3], axis.maximum),

@@ -124,7 +124,7 @@ fn station(file: &[u8]) -> Result<(), String> {
 
 /// A room that is accepted has cameras that can be placed.
 fn room(file: &[u8]) -> Result<(), String> {
-    if let Some(Ok(file)) = text(file).map(RoomFile::from_toml_str)
+    if let Some(Ok(file)) = text(file).map(|text| RoomFile::from_toml_str(text, "fuzz"))
         && file.task().is_ok()
     {
         drop(file.wall_rig().map(|rig| rig.first_guess()));

@@ -27,7 +27,7 @@ pub(super) fn identify(common: &Common, flown: &Flown, answer: &mut Answer) -> D
         .vehicle
         .as_ref()
         .ok_or("a flight needs --vehicle for mass, positions of the rotors and PWM range")?;
-    let file = vehicle::read(path)?;
+    let file = vehicle::read(path, answer)?;
     let vehicle = Vehicle::from_file(&file, &path.display().to_string())?;
     let log = log(common, flown, &vehicle, answer)?;
     let mass = flown.mass_kg.unwrap_or(vehicle.airframe.mass);

@@ -4,7 +4,7 @@ use super::Done;
 use crate::arguments::{Common, LineRange};
 use crate::output::Answer;
 use crate::{input, plot, vehicle};
-use quad_dynamics::vehicle::file::VehicleFile;
+use quad_dynamics::vehicle::VehicleFile;
 use quad_plot::{Figure, Panel};
 use sysid::Fit;
 use sysid::rotor_static::{
@@ -69,14 +69,14 @@ pub(super) fn identify(common: &Common, range: LineRange, answer: &mut Answer) -
         .vehicle
         .as_ref()
         .ok_or("a thrust stand needs --vehicle for diameter, air density and PWM range")?;
-    let file = vehicle::read(path)?;
+    let file = vehicle::read(path, answer)?;
     let propeller = file
         .propeller
         .as_ref()
         .ok_or("the vehicle file needs [propeller] with a diameter")?;
     let scale = PropellerScale {
-        diameter_m: propeller.diameter_m.value,
-        air_density_kg_m3: file.environment.air_density_kg_m3.value,
+        diameter_m: propeller.diameter.value,
+        air_density_kg_m3: file.environment.air_density.value,
     };
     let samples = input::sweep(&common.data, answer)?;
     let minimum = file.pwm.minimum.value;
@@ -156,7 +156,7 @@ fn gains(
 /// The voltage of the line, V: the vehicle's nominal one, or the data's middle one.
 fn voltage(samples: &[StaticSample], file: &VehicleFile) -> Option<f64> {
     if let Some(battery) = &file.battery {
-        return Some(battery.nominal_voltage_v.value);
+        return Some(battery.nominal_voltage.value);
     }
     let mut voltages: Vec<f64> = samples.iter().map(|s| s.battery_voltage_v).collect();
     voltages.sort_by(f64::total_cmp);

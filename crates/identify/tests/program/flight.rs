@@ -38,8 +38,8 @@ fn exact_a_virtual_flight_is_identified() {
     assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     check(&output);
     let text = std::fs::read_to_string(out).unwrap();
-    let vehicle = quad_dynamics::vehicle::file::VehicleFile::from_toml_str(&text, "out").unwrap();
-    let gain = vehicle.linear_rotor.thrust_gain_n;
+    let vehicle = quad_dynamics::vehicle::VehicleFile::parse(&text, "out").unwrap();
+    let gain = vehicle.linear_rotor.thrust_gain;
     assert!(
         gain.source
             .starts_with("identified: identify flight flown.csv; line through")

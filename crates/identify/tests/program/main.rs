@@ -113,8 +113,8 @@ fn exact_a_good_swing_is_identified_and_written() {
     // Four standard errors: one seed in 16000 misses.
     assert!((value - 0.03).abs() < 4.0 * error, "{value} ± {error}");
     let text = std::fs::read_to_string(out).unwrap();
-    let file = quad_dynamics::vehicle::file::VehicleFile::from_toml_str(&text, "out").unwrap();
-    let inertia = file.airframe.inertia_xx_kg_m2;
+    let file = quad_dynamics::vehicle::VehicleFile::parse(&text, "out").unwrap();
+    let inertia = &file.airframe.inertia.m11;
     assert_eq!((inertia.value, inertia.standard_error), (value, Some(error)));
     assert_eq!(inertia.source, "identified: identify pendulum good.csv");
     // All other lines of the user's file, comments too, are unchanged.

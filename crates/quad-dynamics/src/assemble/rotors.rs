@@ -5,9 +5,8 @@ use crate::family::{FamilyRotor, FamilySupply};
 use crate::vehicle::Vehicle;
 use quad_math::{Real, constant};
 use quad_rotor::{
-    Battery, BatteryState, ConstantVoltage, Cubic, FirstOrderRotor, IdealRotor, LinearRotor,
-    MechanisticRotor, Motor, NonLinearRotor, Propeller, ResponseState, RotorDynamics, RotorOutput, Sag,
-    SpinState, ThrustState,
+    Battery, BatteryState, ConstantVoltage, FirstOrderRotor, IdealRotor, LinearRotor, MechanisticRotor,
+    NonLinearRotor, Propeller, ResponseState, RotorDynamics, RotorOutput, Sag, SpinState, ThrustState,
 };
 
 pub(super) fn zero_thrust_offset<R: Real>(vehicle: &Vehicle<R>) -> R {
@@ -18,13 +17,9 @@ pub(super) fn propeller<R: Real>(
     vehicle: &Vehicle<R>,
     needed_by: &'static str,
 ) -> Result<Propeller<R>, BuildError> {
-    let p = vehicle.require_propeller(needed_by)?;
-    Ok(Propeller::from_coefficients(
-        p.thrust_coefficient,
-        p.torque_coefficient,
-        p.diameter,
-        vehicle.environment.air_density,
-    ))
+    Ok(vehicle
+        .require_propeller(needed_by)?
+        .law(vehicle.environment.air_density))
 }
 
 pub(super) fn ideal<R: Real>(vehicle: &Vehicle<R>) -> IdealRotor<R> {
@@ -62,15 +57,7 @@ fn battery<R: Real>(
 }
 
 fn dynamics<R: Real>(vehicle: &Vehicle<R>, needed_by: &'static str) -> Result<RotorDynamics<R>, BuildError> {
-    let d = vehicle.require_rotor_dynamics(needed_by)?;
-    Ok(RotorDynamics {
-        thrust_c1: d.thrust_c1,
-        thrust_c2: d.thrust_c2,
-        torque_c1: d.torque_c1,
-        torque_c2: d.torque_c2,
-        torque_c3: d.torque_c3,
-        torque_c4: d.torque_c4,
-    })
+    Ok(*vehicle.require_rotor_dynamics(needed_by)?)
 }
 
 /// Upper end of the polynomials' variable, V: full duty on the full battery, or on the nominal one.
@@ -99,10 +86,6 @@ fn response_scales<R: Real>(hover: &RotorOutput<R>) -> Vec<R> {
 /// The sum of a response's two poles, which is more than the quicker one; of thrust or torque.
 fn fastest_response<R: Real>(dynamics: &RotorDynamics<R>) -> R {
     dynamics.thrust_c1.simd_max(dynamics.torque_c3)
-}
-
-fn cubic<R: Real>([k1, k2, k3]: [R; 3]) -> Cubic<R> {
-    Cubic { k1, k2, k3 }
 }
 
 impl<R: Real> FamilyRotor<R> for IdealRotor<R> {
@@ -201,8 +184,8 @@ impl<R: Real> FamilyRotor<R> for NonLinearRotor<R> {
     fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let polynomial = vehicle.require_polynomial_rotor(Self::NAME)?;
         Ok(Self {
-            thrust: cubic(polynomial.thrust),
-            torque: cubic(polynomial.torque),
+            thrust: polynomial.thrust,
+            torque: polynomial.torque,
             range_end: polynomial_range_end(vehicle),
             zero_thrust_offset: zero_thrust_offset(vehicle),
             dynamics: dynamics(vehicle, Self::NAME)?,
@@ -230,17 +213,9 @@ impl<R: Real> FamilyRotor<R> for MechanisticRotor<R> {
 
     fn of(vehicle: &Vehicle<R>) -> Result<Self, BuildError> {
         let needed_by = Self::NAME;
-        let m = vehicle.require_motor(needed_by)?;
         Ok(Self {
             propeller: propeller(vehicle, needed_by)?,
-            motor: Motor {
-                velocity_constant: m.velocity_constant,
-                resistance: m.resistance,
-                no_load_current: m.no_load_current,
-                controller_lag: m.controller_lag,
-                full_voltage_duty: m.full_voltage_duty,
-            },
-            inertia: m.rotor_inertia,
+            motor: *vehicle.require_motor(needed_by)?,
             zero_thrust_offset: zero_thrust_offset(vehicle),
         })
     }

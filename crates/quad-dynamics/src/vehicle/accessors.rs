@@ -1,16 +1,23 @@
 //! What follows from a vehicle's parameters by a formula of one line.
 
-use std::f64::consts::TAU;
-
-use nalgebra::Matrix4;
+use nalgebra::{Matrix4, Vector3};
+use quad_math::Real;
+use quad_rotor::{Motor, Propeller, RotorDynamics};
 
 use super::{
-    ArmParameters, BatteryParameters, DragParameters, MotorParameters, PolynomialRotorParameters,
-    PropellerParameters, RotorDynamicsParameters, Vehicle, VehicleError,
+    ArmParameters, BatteryParameters, PolynomialRotorParameters, PropellerParameters, Vehicle, VehicleError,
 };
+use crate::{Drag, PerRotor, ROTORS};
 
-/// Number of rotors, as the divisor of shares.
-const ROTORS: f64 = 4.0;
+impl<R: Real> Vehicle<R> {
+    /// Hubs relative to the centre of mass, in B, m.
+    #[must_use]
+    pub fn hubs(&self) -> PerRotor<Vector3<R>> {
+        self.rotors
+            .each_ref()
+            .map(|rotor| rotor.hub_position - self.airframe.centre_of_mass)
+    }
+}
 
 impl Vehicle {
     /// Control matrix C: pseudo-inputs `[u_col, u_lat, u_long, u_yaw] = C u` from the zeroed commands of the four rotors.
@@ -19,15 +26,12 @@ impl Vehicle {
     /// `T = K_T u_col`, `M_x = L K_T u_lat`, `M_y = L K_T u_long`, `M_z = K_Q u_yaw`.
     #[must_use]
     pub fn control_matrix(&self) -> Matrix4<f64> {
-        let arm = self.airframe.arm_length;
-        Matrix4::from_fn(|row, i| {
-            let rotor = &self.rotors[i];
-            match row {
-                0 => 1.0,
-                1 => -rotor.position.y / arm,
-                2 => rotor.position.x / arm,
-                _ => -rotor.spin.sign(),
-            }
+        let (arm, hubs) = (self.airframe.arm_length, self.hubs());
+        Matrix4::from_fn(|row, i| match row {
+            0 => 1.0,
+            1 => -hubs[i].y / arm,
+            2 => hubs[i].x / arm,
+            _ => -self.rotors[i].spin.sign(),
         })
     }
 
@@ -40,14 +44,14 @@ impl Vehicle {
     /// Thrust per rotor in hover `m g / 4`, N, for rotors placed evenly about the centre of mass.
     #[must_use]
     pub fn hover_thrust_per_rotor(&self) -> f64 {
-        self.weight() / ROTORS
+        self.weight() / ROTORS as f64
     }
 
     /// Span b, m: from tip to tip of the two rotors that are farthest apart, from hub to hub without a propeller;
     /// at least an arm.
     #[must_use]
     pub fn span(&self) -> f64 {
-        let hubs = self.rotors.iter().map(|rotor| rotor.position);
+        let hubs = self.hubs().into_iter();
         let pairs = hubs
             .clone()
             .flat_map(|a| hubs.clone().map(move |b| (a - b).norm()));
@@ -68,10 +72,7 @@ impl<R> Vehicle<R> {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_rotor_dynamics(
-        &self,
-        needed_by: &'static str,
-    ) -> Result<&RotorDynamicsParameters<R>, VehicleError> {
+    pub fn require_rotor_dynamics(&self, needed_by: &'static str) -> Result<&RotorDynamics<R>, VehicleError> {
         self.require(&self.rotor_dynamics, "rotor_dynamics", needed_by)
     }
 
@@ -101,7 +102,7 @@ impl<R> Vehicle<R> {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_motor(&self, needed_by: &'static str) -> Result<&MotorParameters<R>, VehicleError> {
+    pub fn require_motor(&self, needed_by: &'static str) -> Result<&Motor<R>, VehicleError> {
         self.require(&self.motor, "motor", needed_by)
     }
 
@@ -117,7 +118,7 @@ impl<R> Vehicle<R> {
     ///
     /// # Errors
     /// [`VehicleError::MissingGroup`] if the vehicle has none.
-    pub fn require_drag(&self, needed_by: &'static str) -> Result<&DragParameters<R>, VehicleError> {
+    pub fn require_drag(&self, needed_by: &'static str) -> Result<&Drag<R>, VehicleError> {
         self.require(&self.drag, "drag", needed_by)
     }
 
@@ -143,16 +144,15 @@ impl<R> Vehicle<R> {
     }
 }
 
-impl PropellerParameters {
-    /// Thrust constant `k_T = C_T ρ D⁴ / (2π)²`, N·s²: `T = k_T Ω²` with Ω in rad/s, at air density ρ in kg/m³.
+impl<R: Real> PropellerParameters<R> {
+    /// The static law `T = k_T Ω²`, `Q = k_Q Ω²` in air of a density ρ, kg/m³.
     #[must_use]
-    pub fn thrust_constant(&self, air_density: f64) -> f64 {
-        self.thrust_coefficient * air_density * self.diameter.powi(4) / TAU.powi(2)
-    }
-
-    /// Torque constant `k_Q = C_Q ρ D⁵ / (2π)²`, N·m·s²: `Q = k_Q Ω²` with Ω in rad/s, at air density ρ in kg/m³.
-    #[must_use]
-    pub fn torque_constant(&self, air_density: f64) -> f64 {
-        self.torque_coefficient * air_density * self.diameter.powi(5) / TAU.powi(2)
+    pub fn law(&self, air_density: R) -> Propeller<R> {
+        Propeller::from_coefficients(
+            self.thrust_coefficient,
+            self.torque_coefficient,
+            self.diameter,
+            air_density,
+        )
     }
 }

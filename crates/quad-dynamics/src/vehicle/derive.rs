@@ -20,10 +20,9 @@ use std::ops::RangeInclusive;
 
 use nalgebra::{SMatrix, SVector, Vector3};
 
-use super::{
-    MotorParameters, PolynomialRotorParameters, PropellerParameters, RotorDynamicsParameters, Vehicle,
-    VehicleError,
-};
+use quad_rotor::{Cubic, MechanisticRotor, RotorDynamics};
+
+use super::{PolynomialRotorParameters, PropellerParameters, Vehicle, VehicleError};
 
 /// Points of a fit over a continuous range: so many that their number no longer shows in four digits.
 const SAMPLES: usize = 1001;
@@ -107,15 +106,11 @@ pub fn axial_damping(advance_slope: f64, air_density: f64, diameter: f64, speed:
     -air_density * (speed / TAU) * diameter.powi(3) * advance_slope
 }
 
-/// A propeller on its motor: steady state and linearisation.
+/// A propeller on its motor: steady state and linearisation, of which [`MechanisticRotor`] has the physics.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteadyRotor {
-    /// Thrust constant k_T, N·s².
-    pub thrust_constant: f64,
-    /// Torque constant k_Q, N·m·s².
-    pub torque_constant: f64,
-    /// Motor and controller.
-    pub motor: MotorParameters,
+    /// Propeller, motor and controller.
+    pub rotor: MechanisticRotor<f64>,
 }
 
 /// A straight line through the steady states of a rotor.
@@ -137,99 +132,88 @@ impl SteadyRotor {
     pub fn of(vehicle: &Vehicle) -> Result<Self, VehicleError> {
         const NEEDED_BY: &str = "the steady rotor";
         let propeller = vehicle.require_propeller(NEEDED_BY)?;
-        let air_density = vehicle.environment.air_density;
-        Ok(Self {
-            thrust_constant: propeller.thrust_constant(air_density),
-            torque_constant: propeller.torque_constant(air_density),
+        let rotor = MechanisticRotor {
+            propeller: propeller.law(vehicle.environment.air_density),
             motor: *vehicle.require_motor(NEEDED_BY)?,
-        })
+            zero_thrust_offset: vehicle.pwm.zero_thrust - vehicle.pwm.minimum,
+        };
+        Ok(Self { rotor })
+    }
+
+    /// Thrust constant k_T, N·s²: `T = k_T Ω²`.
+    #[must_use]
+    pub fn thrust_constant(&self) -> f64 {
+        self.rotor.propeller.thrust_per_speed_squared
+    }
+
+    /// Torque constant k_Q, N·m·s²: `Q = k_Q Ω²`.
+    #[must_use]
+    pub fn torque_constant(&self) -> f64 {
+        self.rotor.propeller.torque_per_speed_squared
+    }
+
+    /// Torque per thrust `k_Q / k_T`, m.
+    fn torque_per_thrust(&self) -> f64 {
+        self.torque_constant() / self.thrust_constant()
     }
 
     /// Effective motor voltage V, V, at a duty above ū_min and a battery voltage.
     #[must_use]
     pub fn effective_voltage(&self, duty: f64, battery_voltage: f64) -> f64 {
-        duty / self.motor.full_voltage_duty * battery_voltage
+        self.rotor.motor.duty_fraction(duty) * battery_voltage
     }
 
     /// Steady speed Ω, rad/s, at a motor voltage; 0 below the voltage that overcomes the no-load current (a kink).
-    ///
-    /// Root of `K_v k_Q R Ω² + Ω/K_v = V − R I_0`, in the form that does not cancel.
     #[must_use]
     pub fn speed(&self, voltage: f64) -> f64 {
-        let MotorParameters {
-            velocity_constant,
-            resistance,
-            no_load_current,
-            ..
-        } = self.motor;
-        let a = velocity_constant * self.torque_constant * resistance;
-        let b = 1.0 / velocity_constant;
-        let c = (voltage - resistance * no_load_current).max(0.0);
-        2.0 * c / (b + (b * b + 4.0 * a * c).sqrt())
+        self.rotor.steady_speed(voltage)
     }
 
-    /// Motor voltage, V, that holds a speed Ω, rad/s: `V = Ω/K_v + R (K_v k_Q Ω² + I_0)`.
+    /// Motor voltage, V, that holds a speed Ω, rad/s.
     #[must_use]
     pub fn voltage(&self, speed: f64) -> f64 {
-        let MotorParameters {
-            velocity_constant,
-            resistance,
-            no_load_current,
-            ..
-        } = self.motor;
-        let current = velocity_constant * self.torque_constant * speed.powi(2) + no_load_current;
-        speed / velocity_constant + resistance * current
+        self.rotor.steady_voltage(speed)
     }
 
     /// Duty above ū_min that holds a speed Ω, rad/s, at a battery voltage, V.
     #[must_use]
     pub fn duty(&self, speed: f64, battery_voltage: f64) -> f64 {
-        self.voltage(speed) / battery_voltage * self.motor.full_voltage_duty
+        self.voltage(speed) / battery_voltage * self.rotor.motor.full_voltage_duty
     }
 
     /// Speed Ω, rad/s, that gives a thrust, N.
     #[must_use]
     pub fn speed_at_thrust(&self, thrust: f64) -> f64 {
-        (thrust / self.thrust_constant).sqrt()
+        self.rotor.propeller.speed_for_thrust(thrust)
     }
 
     /// Steady thrust T, N, at a duty above ū_min and a battery voltage, V.
     #[must_use]
     pub fn thrust(&self, duty: f64, battery_voltage: f64) -> f64 {
-        self.thrust_constant * self.speed(self.effective_voltage(duty, battery_voltage)).powi(2)
+        let speed = self.speed(self.effective_voltage(duty, battery_voltage));
+        self.rotor.propeller.thrust(speed)
     }
 
-    /// Slope of the steady thrust over the duty, N per unit: `2 k_T Ω (dΩ/dV) V_b / full_voltage_duty`.
+    /// Slope of the steady thrust over the duty, N per unit: `2 k_T Ω (dΩ/dV) V_b / full_voltage_duty`, where the linearised
+    /// motor gives `dV/dΩ = K_v R I_R ω_m`.
     #[must_use]
     pub fn thrust_slope(&self, speed: f64, battery_voltage: f64) -> f64 {
-        let MotorParameters {
-            velocity_constant,
-            resistance,
-            full_voltage_duty,
-            ..
-        } = self.motor;
+        let motor = &self.rotor.motor;
         let voltage_per_speed =
-            2.0 * velocity_constant * self.torque_constant * resistance * speed + 1.0 / velocity_constant;
-        2.0 * self.thrust_constant * speed / voltage_per_speed * battery_voltage / full_voltage_duty
+            motor.velocity_constant * motor.resistance * motor.rotor_inertia * self.motor_pole(speed);
+        2.0 * self.thrust_constant() * speed / voltage_per_speed * battery_voltage / motor.full_voltage_duty
     }
 
     /// Pole of the motor linearised at a speed, rad/s, positive when stable: `ω_m = (1/(K_v² R) + 2 k_Q Ω_0) / I_R`.
     #[must_use]
     pub fn motor_pole(&self, speed: f64) -> f64 {
-        let MotorParameters {
-            velocity_constant,
-            resistance,
-            rotor_inertia,
-            ..
-        } = self.motor;
-        let back_emf = 1.0 / (velocity_constant.powi(2) * resistance);
-        (back_emf + 2.0 * self.torque_constant * speed) / rotor_inertia
+        self.rotor.bandwidth(speed)
     }
 
     /// Bandwidth ω_R, rad/s: the slower of the poles of motor and controller at a speed.
     #[must_use]
     pub fn bandwidth(&self, speed: f64) -> f64 {
-        self.motor_pole(speed).min(1.0 / self.motor.controller_lag)
+        self.motor_pole(speed).min(1.0 / self.rotor.motor.controller_lag)
     }
 
     /// Transfer functions of thrust and reaction torque, linearised at a speed.
@@ -237,11 +221,11 @@ impl SteadyRotor {
     /// Both have the poles of motor and controller, `(s + ω_m)(s + 1/τ_ESC)`. The reaction torque `Q + I_R dΩ/dt`
     /// has the zero `2 k_Q Ω_0 / I_R` besides: spinning up takes torque before there is speed.
     #[must_use]
-    pub fn rotor_dynamics(&self, speed: f64) -> RotorDynamicsParameters {
-        let (motor, controller) = (self.motor_pole(speed), 1.0 / self.motor.controller_lag);
+    pub fn rotor_dynamics(&self, speed: f64) -> RotorDynamics<f64> {
+        let (motor, controller) = (self.motor_pole(speed), 1.0 / self.rotor.motor.controller_lag);
         let (sum, product) = (motor + controller, motor * controller);
-        let zero = 2.0 * self.torque_constant * speed / self.motor.rotor_inertia;
-        RotorDynamicsParameters {
+        let zero = 2.0 * self.torque_constant() * speed / self.rotor.motor.rotor_inertia;
+        RotorDynamics {
             thrust_c1: sum,
             thrust_c2: product,
             torque_c1: product / zero,
@@ -267,7 +251,7 @@ impl SteadyRotor {
         let [intercept, thrust_gain] = least_squares(rows)?;
         Ok(LinearFit {
             thrust_gain,
-            torque_gain: thrust_gain * self.torque_constant / self.thrust_constant,
+            torque_gain: thrust_gain * self.torque_per_thrust(),
             zero_thrust: -intercept / thrust_gain,
         })
     }
@@ -277,14 +261,11 @@ impl SteadyRotor {
     /// # Errors
     /// [`FitError`] if the grid has fewer than three values of x.
     pub fn polynomial_fit(&self, grid: &FitGrid) -> Result<PolynomialRotorParameters, FitError> {
-        let thrust = fit_cubic(
-            grid.points()
-                .map(|(duty, volt)| (duty * volt, self.thrust(duty, volt))),
-        )?;
-        let torque_per_thrust = self.torque_constant / self.thrust_constant;
+        let points = grid.points();
+        let thrust = fit_cubic(points.map(|(duty, volt)| (duty * volt, self.thrust(duty, volt))))?;
         Ok(PolynomialRotorParameters {
             thrust,
-            torque: thrust.map(|term| term * torque_per_thrust),
+            torque: thrust.scaled(self.torque_per_thrust()),
         })
     }
 
@@ -294,13 +275,13 @@ impl SteadyRotor {
     /// through the air is the rotor's plus the airframe's, `d_z = 4 · 2 k_Q Ω_0`, at constant speed against the airframe.
     #[must_use]
     pub fn rate_damping(&self, vehicle: &Vehicle, axial_damping: f64, speed: f64) -> Vector3<f64> {
-        let positions = vehicle.rotors.iter().map(|rotor| rotor.position);
-        let (yy, xx) = positions.fold((0.0, 0.0), |(yy, xx), r| (yy + r.y.powi(2), xx + r.x.powi(2)));
+        let hubs = vehicle.hubs().into_iter();
+        let (yy, xx) = hubs.fold((0.0, 0.0), |(yy, xx), r| (yy + r.y.powi(2), xx + r.x.powi(2)));
         let rotors = vehicle.rotors.len() as f64;
         Vector3::new(
             yy * axial_damping,
             xx * axial_damping,
-            rotors * 2.0 * self.torque_constant * speed,
+            rotors * 2.0 * self.torque_constant() * speed,
         )
     }
 }
@@ -329,14 +310,18 @@ impl FitGrid {
 ///
 /// # Errors
 /// [`FitError`] with fewer than three different x.
-pub fn fit_cubic(points: impl Iterator<Item = (f64, f64)> + Clone) -> Result<[f64; 3], FitError> {
+pub fn fit_cubic(points: impl Iterator<Item = (f64, f64)> + Clone) -> Result<Cubic<f64>, FitError> {
     // Scaled to the largest |x|, the normal equations of a cubic lose few digits.
     let scale = points.clone().map(|(x, _)| x.abs()).fold(0.0, f64::max);
     let rows = points.map(|(x, y)| {
         let s = x / scale;
         ([s, s * s, s * s * s], y)
     });
-    least_squares(rows).map(|[k1, k2, k3]| [k1 / scale, k2 / scale.powi(2), k3 / scale.powi(3)])
+    least_squares(rows).map(|[k1, k2, k3]| Cubic {
+        k1: k1 / scale,
+        k2: k2 / scale.powi(2),
+        k3: k3 / scale.powi(3),
+    })
 }
 
 /// Values evenly over a range, ends included.

@@ -1,97 +1,34 @@
 //! What can be wrong with a vehicle file or a vehicle, each with the file, the key, the value and its range.
 
+use provenance::{Place, RangeError, ReadError};
+
 /// Why a vehicle was refused. `origin` is the name of the file (or of the vehicle, where there is no file).
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum VehicleError {
-    /// The text is not TOML at all.
-    #[error("{origin}:{line}:{column}: not valid TOML: {message}")]
-    Syntax {
-        /// Name of the file.
-        origin: String,
-        /// Line of the mistake, counted from 1.
-        line: usize,
-        /// Column of the mistake in characters, counted from 1.
-        column: usize,
-        /// What the parser says.
-        message: String,
-    },
-    /// A key that every vehicle needs is absent.
-    #[error("{origin}:{line}:{column}: missing key `{key}`")]
-    MissingKey {
-        /// Name of the file.
-        origin: String,
-        /// Full path of the absent key, as in `airframe.mass_kg`.
-        key: String,
-        /// Line of the table that lacks it, counted from 1.
-        line: usize,
-        /// Column of that table, counted from 1.
-        column: usize,
-    },
-    /// A key that the schema does not know, most often a slip of the pen.
-    #[error("{origin}:{line}:{column}: unknown key `{key}`, {expected}")]
-    UnknownKey {
-        /// Name of the file.
-        origin: String,
-        /// Full path of the unknown key.
-        key: String,
-        /// The keys that would be known there.
-        expected: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Column, counted from 1.
-        column: usize,
-    },
-    /// A value of another type than the schema's (a text for a number, a plain number without its source, ...).
-    #[error("{origin}:{line}:{column}: key `{key}`: {message}")]
-    WrongType {
-        /// Name of the file.
-        origin: String,
-        /// Full path of the key.
-        key: String,
-        /// What was found and what was expected.
-        message: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Column, counted from 1.
-        column: usize,
-    },
-    /// A number without a word on where it comes from.
-    #[error("{origin}: `{key}` has an empty source: every number says where it comes from")]
+    /// Not TOML, a missing or unknown key, a value of the wrong type.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// More than one mistake; each is one of the others.
+    #[error("{} mistakes:{}", .0.len(), lines(.0))]
+    Several(Vec<VehicleError>),
+    /// A number without a word on where it comes from, in a file that a program made.
+    #[error("{origin}: `{key}` has an empty source: state where the number comes from")]
     EmptySource {
         /// Name of the file.
         origin: String,
         /// Full path of the key.
         key: String,
     },
-    /// NaN or infinite.
-    #[error("{origin}: `{key}` = {value} {unit} is not a finite number")]
-    NotFinite {
-        /// Name of the file.
-        origin: String,
-        /// Full path of the key.
+    /// Not finite, negative or dimensionally absurd: outside what any quadrotor could have.
+    #[error("{place}: `{key}` = {error}")]
+    Range {
+        /// Where, with line and column if it was read from a text.
+        place: Place,
+        /// Full path of the key; the index is that of a rotor, or of an axis.
         key: String,
-        /// The value.
-        value: f64,
-        /// Its unit.
-        unit: &'static str,
-    },
-    /// Negative or dimensionally absurd: outside what any quadrotor could have.
-    #[error("{origin}: `{key}` = {value} {unit} is {}{}", outside(*.minimum, *.maximum, .unit), remark(.hint))]
-    OutOfRange {
-        /// Name of the file.
-        origin: String,
-        /// Full path of the key.
-        key: String,
-        /// The value.
-        value: f64,
-        /// Smallest value accepted.
-        minimum: f64,
-        /// Largest value accepted.
-        maximum: f64,
-        /// Unit of the three.
-        unit: &'static str,
-        /// What may have happened; empty if there is nothing to add.
-        hint: &'static str,
+        /// Value, range and what may have happened.
+        error: Box<RangeError>,
     },
     /// The family is of quadrotors: four rotors.
     #[error("{origin}: `rotors` has {count} entries; a quadrotor has 4")]
@@ -183,20 +120,30 @@ pub enum VehicleError {
     },
 }
 
-/// The range that a value is not in; one-sided where there is no upper bound.
-fn outside(minimum: f64, maximum: f64, unit: &str) -> String {
-    if maximum == f64::MAX {
-        format!("below {minimum} {unit}")
-    } else {
-        format!("outside {minimum} to {maximum} {unit}")
+impl VehicleError {
+    /// Nothing wrong, one mistake, or several.
+    pub(super) fn all(mut faults: Vec<Self>) -> Result<(), Self> {
+        match (faults.pop(), faults.is_empty()) {
+            (None, _) => Ok(()),
+            (Some(only), true) => Err(only),
+            (Some(last), false) => {
+                faults.push(last);
+                Err(Self::Several(faults))
+            }
+        }
+    }
+
+    /// A number outside its range; `place` is the file's name, and the line where it is known.
+    pub(super) fn range(place: Place, key: String) -> impl FnOnce(RangeError) -> Self {
+        move |error| Self::Range {
+            place,
+            key,
+            error: Box::new(error),
+        }
     }
 }
 
-/// A hint as the tail of a sentence, nothing if there is none.
-fn remark(hint: &str) -> String {
-    if hint.is_empty() {
-        String::new()
-    } else {
-        format!("; {hint}")
-    }
+/// One line for each mistake.
+fn lines(faults: &[VehicleError]) -> String {
+    faults.iter().map(|fault| format!("\n  {fault}")).collect()
 }

@@ -89,8 +89,8 @@ fn exact_centre_of_mass_shifts_the_hubs() {
     );
     let vehicle = Vehicle::from_toml_str(&text, "shifted.toml").expect("valid");
     // One rounding of a difference.
-    approx::assert_relative_eq!(vehicle.rotors[1].position.x, 0.15, max_relative = 1e-15);
-    approx::assert_relative_eq!(vehicle.rotors[0].position.z, -0.01, max_relative = 1e-15);
+    approx::assert_relative_eq!(vehicle.hubs()[1].x, 0.15, max_relative = 1e-15);
+    approx::assert_relative_eq!(vehicle.hubs()[0].z, -0.01, max_relative = 1e-15);
     approx::assert_relative_eq!(vehicle.control_matrix()[(2, 0)], -1.25, max_relative = 1e-15);
 }
 

@@ -12,10 +12,7 @@
 //! Not known to the file, and so not respected: that estimates of one experiment are correlated (line and zero of a thrust curve,
 //! terms of a polynomial). The spread of what depends on their sum is then overstated or understated.
 
-use serde::Deserialize;
-use toml::Value;
-
-use super::{Vehicle, VehicleError, VehicleFile};
+use super::{Entry, Vehicle, VehicleError, VehicleFile};
 
 /// Numbers that are one by definition: the steady gain of the reaction torque is one.
 const ONE_NUMBER: [&str; 2] = [
@@ -71,23 +68,8 @@ pub enum DrawError {
 pub struct UncertainVehicle {
     nominal: Vehicle,
     origin: String,
-    file: Value,
+    file: VehicleFile,
     numbers: Vec<UncertainNumber>,
-    /// Where each of the numbers stands, its own place first.
-    places: Vec<Vec<Place>>,
-}
-
-/// Where a number stands in a file: the table that has `value`, and the element if that is a vector.
-#[derive(Debug, Clone, PartialEq)]
-struct Place {
-    table: Vec<Step>,
-    element: Option<usize>,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-enum Step {
-    Key(String),
-    Entry(usize),
 }
 
 impl UncertainVehicle {
@@ -96,46 +78,27 @@ impl UncertainVehicle {
     /// # Errors
     /// As [`Vehicle::from_file`].
     pub fn of(file: &VehicleFile, origin: &str) -> Result<Self, VehicleError> {
-        let nominal = Vehicle::from_file(file, origin)?;
-        let file = Value::try_from(file).expect("numbers, texts and tables are all representable in TOML");
-        let mut found = Vec::new();
-        walk(&file, "", &[], &mut found);
-        // Tables may be kept sorted or as written: the order of the draws must not depend on it.
-        found.sort_by(|a, b| a.0.key.cmp(&b.0.key));
-        let (numbers, places) = found
-            .into_iter()
-            .map(|(number, place)| (number, vec![place]))
-            .unzip();
-        let mut vehicle = Self {
-            nominal,
-            origin: origin.to_owned(),
-            file,
-            numbers,
-            places,
-        };
-        vehicle.join();
-        Ok(vehicle)
-    }
-
-    /// Makes one of the numbers that are one.
-    fn join(&mut self) {
-        let [first, second] = ONE_NUMBER;
-        let of = |numbers: &[UncertainNumber], key: &str| numbers.iter().position(|n| n.key == key);
-        let (leader, other) = match of(&self.numbers, first) {
-            Some(leader) => (leader, second),
-            None => match of(&self.numbers, second) {
-                Some(leader) => (leader, first),
-                None => return,
-            },
-        };
-        self.places[leader].push(Place {
-            table: other.split('.').map(|key| Step::Key(key.to_owned())).collect(),
-            element: None,
+        let mut numbers: Vec<UncertainNumber> = Vec::new();
+        file.for_each_number(|entry, number| {
+            if let Some(standard_error) = number.standard_error.filter(|&error| error > 0.0) {
+                numbers.push(UncertainNumber {
+                    key: named(file, entry),
+                    value: number.value,
+                    standard_error,
+                });
+            }
         });
-        if let Some(k) = of(&self.numbers, other) {
-            self.numbers.remove(k);
-            self.places.remove(k);
+        let [leader, follower] = ONE_NUMBER;
+        if numbers.iter().any(|number| number.key == leader) {
+            numbers.retain(|number| number.key != follower);
         }
+        numbers.sort_by(|a, b| a.key.cmp(&b.key));
+        Ok(Self {
+            nominal: Vehicle::from_file(file, origin)?,
+            origin: origin.to_owned(),
+            file: file.clone(),
+            numbers,
+        })
     }
 
     /// The vehicle as its file has it.
@@ -153,22 +116,32 @@ impl UncertainVehicle {
     /// The file with each number moved by so many of its standard errors; those without a deviation stay.
     #[must_use]
     pub fn file_at(&self, deviations: &[f64]) -> VehicleFile {
-        let mut file = self.file.clone();
-        for ((number, places), &deviation) in self.numbers.iter().zip(&self.places).zip(deviations) {
-            if deviation == 0.0 {
-                continue;
-            }
+        let moved = |key: &str| {
+            let k = self.numbers.iter().position(|number| number.key == key)?;
+            let deviation = *deviations.get(k)?;
+            let number = &self.numbers[k];
             let moved = number.value + deviation * number.standard_error;
-            for (k, place) in places.iter().enumerate() {
-                place.change(&mut file, |old| match k {
-                    0 => moved,
-                    // Equal to printed digits only: their ratio stays.
-                    _ => old * moved / number.value,
-                });
+            (deviation != 0.0).then_some((moved, number.value))
+        };
+        let mut file = self.file.clone();
+        file.for_each_number_mut(|entry, number| {
+            let key = named(&self.file, entry);
+            let partner = ONE_NUMBER
+                .iter()
+                .position(|&one| one == key)
+                .map(|k| ONE_NUMBER[1 - k]);
+            let value = match (moved(&key), partner.and_then(moved)) {
+                (Some((value, _)), _) => value,
+                // Equal to printed digits only: their ratio stays.
+                (None, Some((value, before))) => number.value * value / before,
+                (None, None) => return,
+            };
+            number.value = value;
+            if number.standard_error.take().is_some() {
+                number.source = format!("moved within the standard error of: {}", number.source);
             }
-        }
-        VehicleFile::deserialize(file)
-            .expect("only numbers and sources are other than in a file that was read")
+        });
+        file
     }
 
     /// The vehicle with each number moved by so many of its standard errors; those without a deviation stay.
@@ -210,85 +183,15 @@ impl UncertainVehicle {
     }
 }
 
-/// Finds the numbers with a standard error below a value of the file.
-fn walk(value: &Value, key: &str, path: &[Step], found: &mut Vec<(UncertainNumber, Place)>) {
-    let below = |name: &str| {
-        if key.is_empty() {
-            name.to_owned()
-        } else {
-            format!("{key}.{name}")
-        }
+/// Path of a number; rotors by their names, vectors by their axes.
+fn named(file: &VehicleFile, entry: &Entry) -> String {
+    let (group, name) = entry.group_and_name();
+    let key = match entry.rotor {
+        Some(k) => format!("{group}.{}.{name}", file.rotors[k].name),
+        None => format!("{group}.{name}"),
     };
-    let and = |step: Step| [path, &[step]].concat();
-    match value {
-        Value::Table(table) => match (table.get("value"), table.get("standard_error")) {
-            (Some(value), Some(error)) => leaf(value, error, key, path, found),
-            (Some(_), None) => {}
-            (None, _) => {
-                for (name, value) in table {
-                    walk(value, &below(name), &and(Step::Key(name.clone())), found);
-                }
-            }
-        },
-        Value::Array(entries) => {
-            for (k, entry) in entries.iter().enumerate() {
-                let name = entry.get("name").and_then(Value::as_str);
-                let name = name.map_or_else(|| (k + 1).to_string(), str::to_owned);
-                walk(entry, &below(&name), &and(Step::Entry(k)), found);
-            }
-        }
-        _ => {}
-    }
-}
-
-/// A number, or the three of a vector.
-fn leaf(value: &Value, error: &Value, key: &str, path: &[Step], found: &mut Vec<(UncertainNumber, Place)>) {
-    let mut add = |key: String, value: &Value, error: &Value, element: Option<usize>| {
-        if let (Some(value), Some(standard_error)) = (value.as_float(), error.as_float())
-            && standard_error > 0.0
-        {
-            let number = UncertainNumber {
-                key,
-                value,
-                standard_error,
-            };
-            let table = path.to_vec();
-            found.push((number, Place { table, element }));
-        }
-    };
-    match (value, error) {
-        (Value::Array(values), Value::Array(errors)) => {
-            let axes = ["x", "y", "z"].iter().enumerate();
-            for ((k, axis), (value, error)) in axes.zip(values.iter().zip(errors)) {
-                add(format!("{key}.{axis}"), value, error, Some(k));
-            }
-        }
-        _ => add(key.to_owned(), value, error, None),
-    }
-}
-
-impl Place {
-    /// Puts another number here, and says so in its source.
-    fn change(&self, file: &mut Value, to: impl FnOnce(f64) -> f64) {
-        let table = self.table.iter().try_fold(file, |value, step| match step {
-            Step::Key(key) => value.get_mut(key),
-            Step::Entry(k) => value.get_mut(k),
-        });
-        let Some(Value::Table(table)) = table else {
-            return;
-        };
-        let number = match (table.get_mut("value"), self.element) {
-            (Some(Value::Array(values)), Some(k)) => values.get_mut(k),
-            (number, _) => number,
-        };
-        if let Some(Value::Float(number)) = number {
-            *number = to(*number);
-        }
-        // A vector comes here once for each axis.
-        if table.remove("standard_error").is_some()
-            && let Some(Value::String(source)) = table.get_mut("source")
-        {
-            *source = format!("moved within the standard error of: {source}");
-        }
+    match entry.axis {
+        Some(axis) => format!("{key}.{}", ["x", "y", "z"][axis]),
+        None => key,
     }
 }

@@ -1,9 +1,13 @@
 //! Is this a quadrotor? Every number against its range, then the numbers against each other.
 
-use nalgebra::{Matrix4, Vector3};
+use nalgebra::Matrix4;
 
-use super::limits::{self, Quantity};
-use super::{Airframe, RotorDynamicsParameters, Vehicle, VehicleError};
+use provenance::{Place, Quantity};
+use quad_rotor::RotorDynamics;
+
+use super::groups::{FULL_VOLTAGE, HUB_POSITION, INERTIA, TORQUE_GAIN, ZERO_THRUST};
+use super::{Airframe, Vehicle, VehicleError};
+use crate::ROTORS;
 
 /// Smallest and largest plausible moment of inertia in units of m L². With all mass at the hubs of a '+' it is 1/2 about
 /// x and y and 1 about z; the bounds leave a factor of hundreds below (a compact body on long arms) and ten above
@@ -27,61 +31,21 @@ const UNIT_GAIN_TOLERANCE: f64 = 1e-4;
 /// Relative tolerance of the triangle inequality: a flat body meets it with equality, and files print few digits.
 const TRIANGLE_TOLERANCE: f64 = 1e-6;
 
-/// Number of rotors, as a factor.
-const ROTORS: f64 = 4.0;
-
-impl Quantity {
-    /// The value is finite and in range; `suffix` completes the key path.
-    pub(super) fn check(&self, value: f64, origin: &str, suffix: &str) -> Result<(), VehicleError> {
-        let (origin, key) = (origin.to_owned(), format!("{}{suffix}", self.key));
-        if !value.is_finite() {
-            return Err(VehicleError::NotFinite {
-                origin,
-                key,
-                value,
-                unit: self.unit,
-            });
-        }
-        if value < self.minimum || value > self.maximum {
-            let Self {
-                unit,
-                minimum,
-                maximum,
-                hint,
-                ..
-            } = *self;
-            return Err(VehicleError::OutOfRange {
-                origin,
-                key,
-                value,
-                minimum,
-                maximum,
-                unit,
-                hint,
-            });
-        }
-        Ok(())
-    }
-
-    /// The same quantity within other bounds.
-    fn within(&self, (minimum, maximum): (f64, f64), hint: &'static str) -> Self {
-        Self {
-            minimum,
-            maximum,
-            hint,
-            ..*self
-        }
-    }
-}
-
 impl Vehicle {
     /// Checks every number against its range and the numbers against each other; `origin` names the vehicle in messages.
     ///
     /// # Errors
-    /// The first mistake found, with its key path, value and range.
+    /// All numbers outside their ranges; else the first contradiction between numbers, with its key path, value and range.
     pub fn validate(&self, origin: &str) -> Result<(), VehicleError> {
+        let mut faults = Vec::new();
+        self.for_each_number(|entry, &number| {
+            let place = Place::somewhere(origin);
+            let checked = entry.quantity.check(number);
+            faults.extend(checked.map_err(VehicleError::range(place, entry.path())).err());
+        });
+        VehicleError::all(faults)?;
         let check = Checker { origin };
-        check.environment_and_airframe(self)?;
+        check.airframe(&self.airframe)?;
         check.rotors(self)?;
         check.pwm_and_linear_rotor(self)?;
         check.optional_groups(self)?;
@@ -103,54 +67,40 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    fn all(&self, checks: &[(f64, Quantity)]) -> Result<(), VehicleError> {
-        checks
-            .iter()
-            .try_for_each(|(value, quantity)| quantity.check(*value, self.origin, ""))
+    fn within(
+        &self,
+        quantity: Quantity,
+        value: f64,
+        bounds: (f64, f64),
+        hint: &'static str,
+    ) -> Result<(), VehicleError> {
+        self.at(quantity.key, quantity.within(bounds, hint), value)
     }
 
-    fn vector(&self, vector: &Vector3<f64>, quantity: &Quantity) -> Result<(), VehicleError> {
-        let indexed = vector.iter().enumerate();
-        indexed
-            .into_iter()
-            .try_for_each(|(i, &value)| quantity.check(value, self.origin, &format!("[{i}]")))
+    fn at(&self, key: &str, quantity: Quantity, value: f64) -> Result<(), VehicleError> {
+        let place = Place::somewhere(self.origin);
+        quantity
+            .check(value)
+            .map_err(VehicleError::range(place, key.to_owned()))
     }
 
-    fn environment_and_airframe(&self, vehicle: &Vehicle) -> Result<(), VehicleError> {
-        let Airframe {
-            mass,
-            inertia,
-            arm_length,
-            centre_of_mass,
-        } = &vehicle.airframe;
-        self.all(&[
-            (vehicle.environment.gravity, limits::GRAVITY),
-            (vehicle.environment.air_density, limits::AIR_DENSITY),
-            (*mass, limits::MASS),
-            (*arm_length, limits::ARM_LENGTH),
-        ])?;
-        self.vector(centre_of_mass, &limits::CENTRE_OF_MASS)?;
-        let scale = mass * arm_length.powi(2);
-        let bounds = (
-            INERTIA_PER_MASS_ARM_SQUARED.0 * scale,
-            INERTIA_PER_MASS_ARM_SQUARED.1 * scale,
-        );
-        for (moment, quantity) in inertia.diagonal().iter().zip(&limits::INERTIA) {
-            let plausible = quantity.within(
-                bounds,
-                "the range is 0.001 to 10 times mass times arm length squared",
-            );
-            plausible.check(*moment, self.origin, "")?;
+    fn airframe(&self, airframe: &Airframe) -> Result<(), VehicleError> {
+        let inertia = &airframe.inertia;
+        let scale = airframe.mass * airframe.arm_length.powi(2);
+        let (least, most) = INERTIA_PER_MASS_ARM_SQUARED;
+        let (least, most) = (least * scale, most * scale);
+        let hint = "the range is 0.001 to 10 times mass times arm length squared";
+        let [xx, yy, zz, xy, xz, yz] = INERTIA;
+        for (moment, quantity) in inertia.diagonal().iter().zip([xx, yy, zz]) {
+            self.within(quantity, *moment, (least, most), hint)?;
         }
         let products = [
             (inertia.m12, inertia.m21),
             (inertia.m13, inertia.m31),
             (inertia.m23, inertia.m32),
         ];
-        for ((upper, lower), quantity) in products.into_iter().zip(&limits::INERTIA_PRODUCT) {
-            quantity
-                .within((-bounds.1, bounds.1), "")
-                .check(upper, self.origin, "")?;
+        for ((upper, lower), quantity) in products.into_iter().zip([xy, xz, yz]) {
+            self.within(quantity, upper, (-most, most), "")?;
             if upper != lower {
                 return Err(VehicleError::AsymmetricInertia {
                     origin: self.origin.to_owned(),
@@ -159,7 +109,7 @@ impl Checker<'_> {
                 });
             }
         }
-        self.inertia(&vehicle.airframe)
+        self.inertia(airframe)
     }
 
     /// Principal moments positive, none larger than the sum of the other two.
@@ -179,29 +129,17 @@ impl Checker<'_> {
     fn rotors(&self, vehicle: &Vehicle) -> Result<(), VehicleError> {
         let arm = vehicle.airframe.arm_length;
         let bounds = (HUB_DISTANCE_PER_ARM.0 * arm, HUB_DISTANCE_PER_ARM.1 * arm);
-        for (i, rotor) in vehicle.rotors.iter().enumerate() {
-            let hub = rotor.position + vehicle.airframe.centre_of_mass;
-            let key = |suffix: &str| format!("rotors[{i}].hub_position_m{suffix}");
-            for (axis, &coordinate) in hub.iter().enumerate() {
-                limits::HUB_POSITION
-                    .check(coordinate, self.origin, "")
-                    .map_err(|error| with_key(error, key(&format!("[{axis}]"))))?;
-            }
-            let hint = "the horizontal distance of a hub is 0.5 to 2 times `airframe.arm_length_m`";
-            limits::HUB_POSITION
-                .within(bounds, hint)
-                .check(hub.xy().norm(), self.origin, "")
-                .map_err(|error| with_key(error, key("")))?;
+        let hint = "the horizontal distance of a hub is 0.5 to 2 times `airframe.arm_length_m`";
+        for (k, rotor) in vehicle.rotors.iter().enumerate() {
+            let key = format!("rotors[{k}].hub_position_m");
+            let distance = rotor.hub_position.xy().norm();
+            self.at(&key, HUB_POSITION.within(bounds, hint), distance)?;
         }
         Ok(())
     }
 
     fn pwm_and_linear_rotor(&self, vehicle: &Vehicle) -> Result<(), VehicleError> {
         let (pwm, rotor) = (&vehicle.pwm, &vehicle.linear_rotor);
-        self.all(&[
-            (pwm.minimum, limits::PWM_MINIMUM),
-            (pwm.maximum, limits::PWM_MAXIMUM),
-        ])?;
         if pwm.minimum >= pwm.maximum {
             return Err(VehicleError::PwmOrder {
                 origin: self.origin.to_owned(),
@@ -209,99 +147,30 @@ impl Checker<'_> {
                 maximum: pwm.maximum,
             });
         }
-        let inside = limits::PWM_ZERO_THRUST.within(
-            (pwm.minimum, pwm.maximum),
-            "it lies between `pwm.minimum` and `pwm.maximum`",
-        );
-        self.all(&[
-            (pwm.zero_thrust, inside),
-            (rotor.thrust_gain, limits::THRUST_GAIN),
-            (rotor.torque_gain, limits::TORQUE_GAIN),
-            (rotor.bandwidth, limits::BANDWIDTH),
-        ])?;
+        let hint = "it lies between `pwm.minimum` and `pwm.maximum`";
+        self.within(ZERO_THRUST, pwm.zero_thrust, (pwm.minimum, pwm.maximum), hint)?;
         let bounds = (
             TORQUE_PER_THRUST_M.0 * rotor.thrust_gain,
             TORQUE_PER_THRUST_M.1 * rotor.thrust_gain,
         );
         let hint = "the range is 0.1 mm to 1 m of torque per thrust; is this in N·mm?";
-        self.all(&[(rotor.torque_gain, limits::TORQUE_GAIN.within(bounds, hint))])
+        self.within(TORQUE_GAIN, rotor.torque_gain, bounds, hint)
     }
 
     fn optional_groups(&self, vehicle: &Vehicle) -> Result<(), VehicleError> {
         if let Some(group) = &vehicle.rotor_dynamics {
             self.rotor_dynamics(group)?;
         }
-        if let Some(group) = &vehicle.polynomial_rotor {
-            for (terms, quantities) in [
-                (group.thrust, limits::POLYNOMIAL_THRUST),
-                (group.torque, limits::POLYNOMIAL_TORQUE),
-            ] {
-                terms
-                    .iter()
-                    .zip(quantities)
-                    .try_for_each(|(&k, limit)| limit.check(k, self.origin, ""))?;
-            }
-        }
-        if let Some(group) = &vehicle.propeller {
-            self.all(&[
-                (group.diameter, limits::DIAMETER),
-                (group.thrust_coefficient, limits::THRUST_COEFFICIENT),
-                (group.torque_coefficient, limits::TORQUE_COEFFICIENT),
-            ])?;
-        }
-        self.motor_and_battery(vehicle)?;
-        if let Some(group) = &vehicle.drag {
-            self.vector(&group.quadratic, &limits::QUADRATIC_DRAG)?;
-            self.vector(&group.rate_damping, &limits::RATE_DAMPING)?;
-        }
-        if let Some(group) = &vehicle.arms {
-            self.all(&[
-                (group.width, limits::ARM_WIDTH),
-                (group.drag_coefficient, limits::ARM_DRAG_COEFFICIENT),
-                (group.drop, limits::ARM_DROP),
-            ])?;
-        }
-        Ok(())
-    }
-
-    fn motor_and_battery(&self, vehicle: &Vehicle) -> Result<(), VehicleError> {
-        if let Some(group) = &vehicle.motor {
-            self.all(&[
-                (group.velocity_constant, limits::VELOCITY_CONSTANT),
-                (group.resistance, limits::RESISTANCE),
-                (group.no_load_current, limits::NO_LOAD_CURRENT),
-                (group.rotor_inertia, limits::ROTOR_INERTIA),
-                (group.controller_lag, limits::CONTROLLER_LAG),
-                (group.full_voltage_duty, limits::FULL_VOLTAGE_DUTY),
-            ])?;
-        }
         if let Some(group) = &vehicle.battery {
-            self.all(&[(group.nominal_voltage, limits::NOMINAL_VOLTAGE)])?;
-            let above_nominal = limits::FULL_VOLTAGE.within(
-                (group.nominal_voltage, limits::FULL_VOLTAGE.maximum),
-                "a full battery is not below its nominal voltage",
-            );
-            self.all(&[
-                (group.full_voltage, above_nominal),
-                (group.internal_resistance, limits::INTERNAL_RESISTANCE),
-                (group.capacity, limits::CAPACITY),
-                (group.exponential_amplitude, limits::EXPONENTIAL_AMPLITUDE),
-                (group.exponential_rate, limits::EXPONENTIAL_RATE),
-            ])?;
+            let bounds = (group.nominal_voltage, FULL_VOLTAGE.maximum);
+            let hint = "a full battery is not below its nominal voltage";
+            self.within(FULL_VOLTAGE, group.full_voltage, bounds, hint)?;
         }
         Ok(())
     }
 
     /// Second order with positive coefficients is stable (Routh); the torque's steady gain is one.
-    fn rotor_dynamics(&self, group: &RotorDynamicsParameters) -> Result<(), VehicleError> {
-        self.all(&[
-            (group.thrust_c1, limits::THRUST_C1),
-            (group.thrust_c2, limits::THRUST_C2),
-            (group.torque_c1, limits::TORQUE_C1),
-            (group.torque_c2, limits::TORQUE_C2),
-            (group.torque_c3, limits::TORQUE_C3),
-            (group.torque_c4, limits::TORQUE_C4),
-        ])?;
+    fn rotor_dynamics(&self, group: &RotorDynamics<f64>) -> Result<(), VehicleError> {
         let (numerator, denominator) = (group.torque_c2, group.torque_c4);
         if (numerator - denominator).abs() > UNIT_GAIN_TOLERANCE * denominator {
             return Err(VehicleError::TorqueGainNotUnity {
@@ -330,7 +199,8 @@ impl Checker<'_> {
     }
 
     fn hover(&self, vehicle: &Vehicle) -> Result<(), VehicleError> {
-        let maximum_thrust_n = ROTORS * vehicle.linear_rotor.thrust_gain * vehicle.zeroed_range().end();
+        let maximum_thrust_n =
+            ROTORS as f64 * vehicle.linear_rotor.thrust_gain * vehicle.zeroed_range().end();
         let weight_n = vehicle.weight();
         if maximum_thrust_n > weight_n {
             return Ok(());
@@ -340,37 +210,5 @@ impl Checker<'_> {
             maximum_thrust_n,
             weight_n,
         })
-    }
-}
-
-/// The same error under another key path: entries of a list carry their index.
-fn with_key(error: VehicleError, key: String) -> VehicleError {
-    match error {
-        VehicleError::NotFinite {
-            origin, value, unit, ..
-        } => VehicleError::NotFinite {
-            origin,
-            key,
-            value,
-            unit,
-        },
-        VehicleError::OutOfRange {
-            origin,
-            value,
-            minimum,
-            maximum,
-            unit,
-            hint,
-            ..
-        } => VehicleError::OutOfRange {
-            origin,
-            key,
-            value,
-            minimum,
-            maximum,
-            unit,
-            hint,
-        },
-        other => other,
     }
 }

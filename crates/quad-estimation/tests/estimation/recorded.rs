@@ -49,7 +49,7 @@ struct Calibrated {
 }
 
 fn calibrated() -> Option<Calibrated> {
-    let base = VehicleFile::from_toml_str(CRAZYFLIE_TOML, "crazyflie.toml").unwrap();
+    let base = VehicleFile::parse(CRAZYFLIE_TOML, "crazyflie.toml").unwrap();
     let vehicle = Vehicle::from_file(&base, "crazyflie.toml").unwrap();
     let calibration = calibrate(&flight(FITTED)?, &WINDOW, CURVE, &vehicle).unwrap();
     let file = calibration.vehicle_file(&base, "fitted flight").unwrap();

@@ -242,7 +242,7 @@ fn exact_a_singular_control_matrix_is_an_error() {
     let mut vehicle = Vehicle::qball_x4();
     vehicle.name = "four in a row".into();
     for (rotor, x) in vehicle.rotors.iter_mut().zip([-0.2, -0.1, 0.1, 0.2]) {
-        rotor.position = Vector3::new(x, 0.0, 0.0);
+        rotor.hub_position = Vector3::new(x, 0.0, 0.0);
     }
     let refused = C2::<f64>::new(&vehicle, &Settings::default()).unwrap_err();
     assert_eq!(

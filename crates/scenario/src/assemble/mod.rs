@@ -113,6 +113,7 @@ impl Scenario {
         for file in &self.quadrotor {
             quadrotor::add(&mut built, self, file, (&library, &starts))?;
         }
+        built.notes.extend(library.warnings());
         if self.stop.arrived_within_m.is_some() && built.goals.len() < self.quadrotor.len() {
             let note = "stop.arrived_within_m is never met: a quadrotor on a circle or following another never arrives";
             built.notes.push(note.to_owned());

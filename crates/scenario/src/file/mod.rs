@@ -22,7 +22,6 @@ pub use sensor::{ErrorFile, InitialDeviationFile, InitialErrorFile, SensorFile, 
 pub use station::{EtsFile, PathFile, TargetFile};
 
 use crate::error::ScenarioError;
-use crate::read;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -71,7 +70,7 @@ impl Scenario {
     /// Not TOML, a missing or unknown key, or a value of the wrong type, each with line, column and key path. Whether the
     /// scenario can be flown is seen when it is [built](crate::Scenario::build).
     pub fn from_toml_str(text: &str, origin: &str) -> Result<Self, ScenarioError> {
-        read::scenario(text, origin)
+        Ok(provenance::from_toml(text, origin)?)
     }
 
     /// Reads a scenario whose keys were [changed](crate::set); `origin` is its name in messages.
@@ -79,7 +78,7 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::from_toml_str`]; there is no line to tell.
     pub fn from_table(table: &toml::Table, origin: &str) -> Result<Self, ScenarioError> {
-        read::table(table, origin)
+        Ok(provenance::from_table(table, origin)?)
     }
 
     /// The vehicles and stations that it names: those that come with the project, and files relative to the scenario.

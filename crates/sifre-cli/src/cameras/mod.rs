@@ -55,8 +55,8 @@ pub(crate) fn run(arguments: &Arguments, json: bool) -> Result<Exit, Failure> {
         report::say(RoomFile::TEMPLATE)?;
         return Ok(Exit::Done);
     };
-    let file = RoomFile::from_toml_str(&disk::read(path)?)
-        .map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))?;
+    let file = RoomFile::from_toml_str(&disk::read(path)?, &path.display().to_string())
+        .map_err(|error| Failure::Usage(error.to_string()))?;
     let refuse = |error: CoverageError| Failure::Usage(format!("{}: {error}", path.display()));
     let task = file.task().map_err(refuse)?;
     let rig = file.wall_rig().map_err(refuse)?;

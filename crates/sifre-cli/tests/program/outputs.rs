@@ -381,7 +381,7 @@ fn exact_tampered_journals_are_refused() {
         "sweep",
         "s.toml",
         "--range",
-        "duration_s=20:21:2000",
+        "duration_s=20:21:2001",
         "--out",
         "t.csv",
     ];
@@ -395,7 +395,7 @@ fn exact_tampered_journals_are_refused() {
     };
     for (added, part) in [
         (with(7, 0).1, "is damaged"),
-        (with(2000, 0).0, "has run 2000, but the sweep has 2000 runs"),
+        (with(2001, 0).0, "has run 2001, but the sweep has 2001 runs"),
         (with(7, 90).0, "has the unknown exit code 90"),
     ] {
         let tampered = journal.clone() + &added;

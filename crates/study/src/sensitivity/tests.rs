@@ -29,7 +29,7 @@ fn all_uncertain() -> UncertainVehicle {
     let mut file: toml::Value = toml::from_str(builtin::QBALL_X4_TOML).unwrap();
     add_errors(&mut file);
     let text = toml::to_string(&file).unwrap();
-    let file = VehicleFile::from_toml_str(&text, "test").unwrap();
+    let file = VehicleFile::parse(&text, "test").unwrap();
     UncertainVehicle::of(&file, "test").unwrap()
 }
 
@@ -187,14 +187,10 @@ fn exact_derivatives_of_what_is_derived() {
     let vehicle = all_uncertain();
     let at = |key: &str| vehicle.numbers().iter().position(|n| n.key == key).unwrap();
     let moved = differentiable(&vehicle, at("airframe.centre_of_mass_m.y")).unwrap();
-    for rotor in &moved.rotors {
+    for hub in &moved.hubs() {
         // A difference of two numbers near 0.2 m.
-        assert!(
-            (rotor.position.y.eps + ABSOLUTE).abs() < 1e-16,
-            "{}",
-            rotor.position.y
-        );
-        assert_eq!(rotor.position.x.eps, 0.0);
+        assert!((hub.y.eps + ABSOLUTE).abs() < 1e-16, "{}", hub.y);
+        assert_eq!(hub.x.eps, 0.0);
     }
     let moved = differentiable(&vehicle, at("airframe.inertia_zz_kg_m2")).unwrap();
     let phenomena = Level::Two.phenomena();

@@ -26,9 +26,7 @@ use crate::estimate::Fit;
 use crate::recorded::{InertialLog, MotionCaptureFlight};
 use crate::regression::{Row, linear};
 use nalgebra::{Matrix4, Vector4};
-use quad_dynamics::Vehicle;
-use quad_dynamics::vehicle::VehicleFile;
-use quad_dynamics::vehicle::file::Number;
+use quad_dynamics::vehicle::{Sourced, Vehicle, VehicleFile};
 use std::ops::Range;
 
 /// Length of the bins, s: five samples of the telemetry.
@@ -158,15 +156,14 @@ impl Calibration {
         let mut file = base.clone();
         file.name = format!("{}, calibrated", base.name);
         let mass = self.mass();
-        file.airframe.mass_kg = number(mass, source);
-        file.airframe.inertia_xx_kg_m2 = number(self.roll.inertia, source);
-        file.airframe.inertia_yy_kg_m2 = number(self.pitch.inertia, source);
-        let plane =
-            |file: &VehicleFile| file.airframe.inertia_xx_kg_m2.value + file.airframe.inertia_yy_kg_m2.value;
+        file.airframe.mass = number(mass, source);
+        file.airframe.inertia.m11 = number(self.roll.inertia, source);
+        file.airframe.inertia.m22 = number(self.pitch.inertia, source);
+        let plane = |file: &VehicleFile| file.airframe.inertia.m11.value + file.airframe.inertia.m22.value;
         let growth = plane(&file) / plane(base);
-        let inertia_zz = base.airframe.inertia_zz_kg_m2.value * growth;
-        file.airframe.inertia_zz_kg_m2 = Number::new(inertia_zz, "in proportion to I_xx + I_yy");
-        let hover = mass.value * base.environment.gravity_m_s2.value / 4.0;
+        let inertia_zz = base.airframe.inertia.m33.value * growth;
+        file.airframe.inertia.m33 = Sourced::new(inertia_zz, "in proportion to I_xx + I_yy");
+        let hover = mass.value * base.environment.gravity.value / 4.0;
         let voltage_ratio = self.voltage / self.nominal_voltage;
         let command = |share: f64| (self.curve.command(share * hover) / voltage_ratio).min(1.0);
         let rotor = RotorNumbers {
@@ -174,8 +171,7 @@ impl Calibration {
             voltage_ratio,
             commands: command(OPERATING_RANGE[0])..=command(OPERATING_RANGE[1]),
             lag: crate::Estimate::known(self.lag_s, 0.0),
-            torque_per_thrust: base.linear_rotor.torque_gain_n_m.value
-                / base.linear_rotor.thrust_gain_n.value,
+            torque_per_thrust: base.linear_rotor.torque_gain.value / base.linear_rotor.thrust_gain.value,
             zero: zero(base)?,
         };
         rotor.write(&mut file, source)?;
@@ -226,10 +222,8 @@ fn trim(
     voltage_ratio: f64,
 ) -> Result<[f64; 4], FlightError> {
     let means: [f64; 4] = std::array::from_fn(|i| mean(thrusts.iter().map(|t| t[i])));
-    let effect = Matrix4::from_fn(|row, i| {
-        let rotor = &vehicle.rotors[i];
-        [1.0, -rotor.position.y, rotor.position.x, -rotor.spin.sign()][row]
-    });
+    let hubs = vehicle.hubs();
+    let effect = Matrix4::from_fn(|row, i| [1.0, -hubs[i].y, hubs[i].x, -vehicle.rotors[i].spin.sign()][row]);
     let mut wanted = -effect * Vector4::from(means);
     wanted[0] = 0.0;
     let singular = FlightError::NotPhysical {

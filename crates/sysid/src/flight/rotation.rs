@@ -167,9 +167,9 @@ fn rate(axis: Axis, log: &InertialLog, k: usize) -> f64 {
 
 /// Moment of the rotors at each sample of a segment, N m, without delay.
 fn moment(axis: Axis, model: &RotationModel, vehicle: &Vehicle, segment: &Segment<'_>) -> Vec<f64> {
-    let arms = vehicle.rotors.each_ref().map(|rotor| match axis {
-        Axis::Roll => -rotor.position.y,
-        Axis::Pitch => rotor.position.x,
+    let arms = vehicle.hubs().map(|hub| match axis {
+        Axis::Roll => -hub.y,
+        Axis::Pitch => hub.x,
     });
     let thrusts = lagged_thrusts(model, segment);
     let sum = |thrusts: &[f64; 4]| thrusts.iter().zip(&arms).map(|(t, a)| t * a).sum();

@@ -225,7 +225,7 @@ fn exact_a_vehicle_file_of_the_identified_numbers_flies_at_every_level() {
     let file = vehicle_file(&found, &base, "simulated flight").unwrap();
     let vehicle = Vehicle::from_file(&file, "identified").unwrap();
     assert_eq!(
-        file.airframe.inertia_xx_kg_m2.standard_error,
+        file.airframe.inertia.m11.standard_error,
         Some(found.roll.inertia.standard_error)
     );
     for level in quad_dynamics::Level::ALL {
@@ -239,17 +239,14 @@ fn exact_a_vehicle_file_of_the_identified_numbers_flies_at_every_level() {
         .unwrap();
     }
     // The cubic of level 5 meets the curve over the range of flight within 2 mN, the line at hover within 3 mN.
-    let nominal = base.battery.as_ref().unwrap().nominal_voltage_v.value;
-    let k = file.polynomial_rotor.as_ref().unwrap();
+    let nominal = base.battery.as_ref().unwrap().nominal_voltage.value;
+    let thrust = vehicle.polynomial_rotor.unwrap().thrust;
     let hover = CURVE.command(MASS * 9.81 / 4.0);
     for c in [0.4, hover, 0.9] {
-        let x = c * nominal;
-        let cubic = ((k.thrust_k3_n_per_v3.value * x + k.thrust_k2_n_per_v2.value) * x
-            + k.thrust_k1_n_per_v.value)
-            * x;
+        let cubic = thrust.value(c * nominal);
         assert!((cubic - CURVE.thrust(c)).abs() < 2e-3, "{c}: {cubic}");
     }
-    let line = file.linear_rotor.thrust_gain_n.value * (hover - file.pwm.zero_thrust.value);
+    let line = file.linear_rotor.thrust_gain.value * (hover - file.pwm.zero_thrust.value);
     assert!((line - CURVE.thrust(hover)).abs() < 3e-3, "{line}");
 }
 

@@ -9,10 +9,9 @@ use crate::estimate::Estimate;
 use crate::recorded::InertialLog;
 use crate::regression::{Row, linear};
 use crate::validation::Agreement;
-use quad_dynamics::Vehicle;
 use quad_dynamics::vehicle::derive::fit_cubic;
-use quad_dynamics::vehicle::file::{Number, PolynomialRotorFile, RotorDynamicsFile};
-use quad_dynamics::vehicle::{self, VehicleFile};
+use quad_dynamics::vehicle::{PolynomialRotorParameters, Sourced, Vehicle, VehicleFile};
+use quad_rotor::RotorDynamics;
 use std::ops::{Range, RangeInclusive};
 
 /// Points of a curve that lines and cubics are drawn through.
@@ -135,11 +134,11 @@ pub fn vehicle_file(
     let mut file = base.clone();
     file.name = format!("{}, identified", base.name);
     let mass = identified.thrust.settings.mass;
-    file.airframe.mass_kg = Number::new(mass, source);
-    file.airframe.inertia_xx_kg_m2 = number(identified.roll.inertia, source);
-    file.airframe.inertia_yy_kg_m2 = number(identified.pitch.inertia, source);
-    let torque_per_thrust = identified.yaw.ratio().value * base.airframe.inertia_zz_kg_m2.value;
-    let hover = mass * base.environment.gravity_m_s2.value / 4.0;
+    file.airframe.mass = Sourced::new(mass, source);
+    file.airframe.inertia.m11 = number(identified.roll.inertia, source);
+    file.airframe.inertia.m22 = number(identified.pitch.inertia, source);
+    let torque_per_thrust = identified.yaw.ratio().value * base.airframe.inertia.m33.value;
+    let hover = mass * base.environment.gravity.value / 4.0;
     let curve = identified.thrust.curve();
     let rotor = RotorNumbers {
         curve,
@@ -175,32 +174,28 @@ impl RotorNumbers {
         let needed_by = "a replay at levels 4 and 5";
         let nominal = base.require_battery(needed_by)?.nominal_voltage;
         let controller_lag = base.require_motor(needed_by)?.controller_lag;
-        let number = |value: f64| Number::new(value, source);
+        let number = |value: f64| Sourced::new(value, source);
         let [intercept, gain] = self.line()?;
         file.pwm.zero_thrust = number(-intercept / gain);
-        file.linear_rotor.thrust_gain_n = number(gain);
-        file.linear_rotor.torque_gain_n_m = number(gain * self.torque_per_thrust);
+        file.linear_rotor.thrust_gain = number(gain);
+        file.linear_rotor.torque_gain = number(gain * self.torque_per_thrust);
         let bandwidth = self.lag.mapped(1.0 / self.lag.value, self.lag.value.powi(-2));
-        file.linear_rotor.bandwidth_rad_s = self::number(bandwidth, source);
+        file.linear_rotor.bandwidth = self::number(bandwidth, source);
         let (slow, fast) = (1.0 / self.lag.value, 1.0 / controller_lag);
-        file.rotor_dynamics = Some(RotorDynamicsFile {
-            thrust_c1_per_s: number(slow + fast),
-            thrust_c2_per_s2: number(slow * fast),
-            torque_c1_per_s: number(slow * fast / self.zero),
-            torque_c2_per_s2: number(slow * fast),
-            torque_c3_per_s: number(slow + fast),
-            torque_c4_per_s2: number(slow * fast),
+        file.rotor_dynamics = Some(RotorDynamics {
+            thrust_c1: number(slow + fast),
+            thrust_c2: number(slow * fast),
+            torque_c1: number(slow * fast / self.zero),
+            torque_c2: number(slow * fast),
+            torque_c3: number(slow + fast),
+            torque_c4: number(slow * fast),
         });
         let points = evenly(&CUBIC_DUTIES).map(|duty| (duty * nominal, self.curve.thrust(duty)));
-        let [k1, k2, k3] = fit_cubic(points)?;
-        let torque = self.torque_per_thrust;
-        file.polynomial_rotor = Some(PolynomialRotorFile {
-            thrust_k1_n_per_v: number(k1),
-            thrust_k2_n_per_v2: number(k2),
-            thrust_k3_n_per_v3: number(k3),
-            torque_k1_n_m_per_v: number(k1 * torque),
-            torque_k2_n_m_per_v2: number(k2 * torque),
-            torque_k3_n_m_per_v3: number(k3 * torque),
+        let thrust = fit_cubic(points)?;
+        let torque = thrust.scaled(self.torque_per_thrust);
+        file.polynomial_rotor = Some(PolynomialRotorParameters {
+            thrust: thrust.map(number),
+            torque: torque.map(number),
         });
         Ok(())
     }
@@ -223,15 +218,15 @@ fn evenly(range: &RangeInclusive<f64>) -> impl Iterator<Item = f64> + Clone + us
 }
 
 /// An estimate as a number of a vehicle file.
-pub(super) fn number(estimate: Estimate, source: &str) -> vehicle::file::Number {
-    Number {
+pub(super) fn number(estimate: Estimate, source: &str) -> Sourced<f64> {
+    Sourced {
         standard_error: Some(estimate.standard_error),
-        ..Number::new(estimate.value, source)
+        ..Sourced::new(estimate.value, source)
     }
 }
 
 /// The Crazyflie's file.
 #[cfg(test)]
 pub(super) fn base() -> VehicleFile {
-    VehicleFile::from_toml_str(vehicle::builtin::CRAZYFLIE_TOML, "crazyflie.toml").unwrap()
+    VehicleFile::parse(quad_dynamics::vehicle::builtin::CRAZYFLIE_TOML, "crazyflie.toml").unwrap()
 }

@@ -47,7 +47,7 @@ use crate::rotor_static::{
     linear_gains, polynomial,
 };
 use quad_dynamics::VehicleError;
-use quad_dynamics::vehicle::file::VehicleFile;
+use quad_dynamics::vehicle::VehicleFile;
 
 /// A swing about one axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,28 +132,25 @@ pub fn identify(measurements: &Measurements, nominal: &VehicleFile) -> Result<Id
 }
 
 fn airframe(m: &Measurements, nominal: &VehicleFile, found: &mut Identified) -> Result<(), PipelineError> {
-    let gravity = nominal.environment.gravity_m_s2.value;
+    let gravity = nominal.environment.gravity.value;
     let centre = locate(&m.placings)?;
     found.remark(Bench::Supports, centre.warnings);
     let mass = centre.weight.mapped(centre.weight.value / gravity, 1.0 / gravity);
-    found.number(Bench::Supports, "airframe.mass_kg", "kg", mass, |f| {
-        &mut f.airframe.mass_kg
-    });
-    let names = [
+    found.number(Bench::Supports, "airframe.mass_kg", mass);
+    let centre_keys = [
         "airframe.centre_of_mass_m[0]",
         "airframe.centre_of_mass_m[1]",
         "airframe.centre_of_mass_m[2]",
     ];
-    found.triple(Bench::Supports, names, "m", centre.position.map(Some), |f| {
-        &mut f.airframe.centre_of_mass_m
-    });
-
-    let places: [(&'static str, result::Place); 3] = [
-        ("airframe.inertia_xx_kg_m2", |f| &mut f.airframe.inertia_xx_kg_m2),
-        ("airframe.inertia_yy_kg_m2", |f| &mut f.airframe.inertia_yy_kg_m2),
-        ("airframe.inertia_zz_kg_m2", |f| &mut f.airframe.inertia_zz_kg_m2),
+    for (key, coordinate) in centre_keys.into_iter().zip(centre.position) {
+        found.number(Bench::Supports, key, coordinate);
+    }
+    let inertia_keys = [
+        "airframe.inertia_xx_kg_m2",
+        "airframe.inertia_yy_kg_m2",
+        "airframe.inertia_zz_kg_m2",
     ];
-    for (swing, (key, place)) in m.swings.iter().zip(places) {
+    for (swing, key) in m.swings.iter().zip(inertia_keys) {
         let suspension = Suspension {
             mass_kg: mass.value,
             gravity_m_s2: gravity,
@@ -166,7 +163,7 @@ fn airframe(m: &Measurements, nominal: &VehicleFile, found: &mut Identified) -> 
         let inertia = fit
             .inertia
             .with_error(per_mass * mass.standard_error, mass.degrees_of_freedom);
-        found.number(Bench::Pendulum, key, "kg m²", inertia, place);
+        found.number(Bench::Pendulum, key, inertia);
     }
     Ok(())
 }
@@ -192,13 +189,9 @@ fn rotor_statics(
     let all = |g: &LinearGains| [g.zero_thrust, g.thrust_gain, g.torque_gain];
     let again = |samples: &[StaticSample]| linear_gains(samples).map(|g| all(&g));
     let [zero, thrust, torque] = cells.with_errors(all(&gains), &m.operating, again)?;
-    found.number(bench, "pwm.zero_thrust", "", zero, |f| &mut f.pwm.zero_thrust);
-    found.number(bench, "linear_rotor.thrust_gain_n", "N", thrust, |f| {
-        &mut f.linear_rotor.thrust_gain_n
-    });
-    found.number(bench, "linear_rotor.torque_gain_n_m", "N m", torque, |f| {
-        &mut f.linear_rotor.torque_gain_n_m
-    });
+    found.number(bench, "pwm.zero_thrust", zero);
+    found.number(bench, "linear_rotor.thrust_gain_n", thrust);
+    found.number(bench, "linear_rotor.torque_gain_n_m", torque);
     Ok(())
 }
 
@@ -214,8 +207,8 @@ fn propeller(
         .as_ref()
         .ok_or(PipelineError::MissingGroup { group: "propeller" })?;
     let scale = PropellerScale {
-        diameter_m: propeller.diameter_m.value,
-        air_density_kg_m3: nominal.environment.air_density_kg_m3.value,
+        diameter_m: propeller.diameter.value,
+        air_density_kg_m3: nominal.environment.air_density.value,
     };
     let both = |samples: &[StaticSample]| {
         let samples: Vec<PropellerSample> = samples.iter().map(PropellerSample::from).collect();
@@ -228,12 +221,8 @@ fn propeller(
     found.remark(bench, [thrust.warnings, torque.warnings].concat());
     let again = |samples: &[StaticSample]| both(samples).map(|(t, q)| [t.parameters[0], q.parameters[0]]);
     let [thrust, torque] = cells.with_errors(estimates, &m.sweep, again)?;
-    found.number(bench, "propeller.thrust_coefficient", "", thrust, |f| {
-        result::propeller(f, |p| &mut p.thrust_coefficient)
-    });
-    found.number(bench, "propeller.torque_coefficient", "", torque, |f| {
-        result::propeller(f, |p| &mut p.torque_coefficient)
-    });
+    found.number(bench, "propeller.thrust_coefficient", thrust);
+    found.number(bench, "propeller.torque_coefficient", torque);
     Ok(())
 }
 
@@ -272,13 +261,7 @@ fn rotor_dynamics(m: &Measurements, cells: &Cells, found: &mut Identified) -> Re
     let Poles::Real { slow, .. } = thrust.poles else {
         return Err(PipelineError::ComplexPoles);
     };
-    found.number(
-        Bench::Response,
-        "linear_rotor.bandwidth_rad_s",
-        "rad/s",
-        slow,
-        |f| &mut f.linear_rotor.bandwidth_rad_s,
-    );
+    found.number(Bench::Response, "linear_rotor.bandwidth_rad_s", slow);
     if let (
         Coefficients::SecondOrder { c1, c2 },
         Coefficients::SecondOrderWithZero {
@@ -296,7 +279,7 @@ fn rotor_dynamics(m: &Measurements, cells: &Cells, found: &mut Identified) -> Re
 }
 
 fn drag(m: &Measurements, found: &mut Identified) -> Result<(), PipelineError> {
-    let mass = found.file.airframe.mass_kg.value;
+    let mass = found.file.airframe.mass.value;
     let fit = identify_drag(&m.flight, mass).map_err(PipelineError::Drag)?;
     found.remark(Bench::Flight, fit.warnings());
     found.drag(&fit)

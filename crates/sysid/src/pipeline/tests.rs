@@ -2,6 +2,7 @@
 
 use super::*;
 use nalgebra::Vector3;
+use quad_dynamics::vehicle::Sourced;
 use quad_dynamics::vehicle::derive::SteadyRotor;
 use quad_dynamics::{AnyQuadrotor, Level, Phenomenon, Vehicle};
 use quad_math::TimeGrid;
@@ -32,15 +33,21 @@ fn settings() -> Settings {
 /// The true vehicle: the nominal one with its centre of mass moved by millimetres and drag and inertia unlike the nominal ones.
 fn truth() -> VehicleFile {
     let mut file = nominal();
-    file.airframe.centre_of_mass_m.value = [0.004, -0.006, 0.012];
-    file.airframe.mass_kg.value = 1.45;
-    file.airframe.inertia_xx_kg_m2.value = 0.032;
-    file.drag.as_mut().unwrap().quadratic_n_s2_m2.value = [0.045, 0.031, 0.061];
+    let with = |number: &mut Sourced<f64>, value| number.value = value;
+    with(&mut file.airframe.mass, 1.45);
+    with(&mut file.airframe.inertia.m11, 0.032);
+    let centre = file.airframe.centre_of_mass.iter_mut();
+    centre
+        .zip([0.004, -0.006, 0.012])
+        .for_each(|(n, value)| n.value = value);
+    let drag = file.drag.as_mut().unwrap().quadratic.iter_mut();
+    drag.zip([0.045, 0.031, 0.061])
+        .for_each(|(n, value)| n.value = value);
     file
 }
 
 fn nominal() -> VehicleFile {
-    VehicleFile::from_toml_str(quad_dynamics::vehicle::builtin::QBALL_X4_TOML, "nominal").unwrap()
+    VehicleFile::parse(quad_dynamics::vehicle::builtin::QBALL_X4_TOML, "nominal").unwrap()
 }
 
 fn identified(seed: u64) -> Identified {
@@ -53,13 +60,7 @@ fn identified(seed: u64) -> Identified {
 
 /// A number of a file by its key.
 fn number(file: &VehicleFile, key: &str) -> f64 {
-    let (path, index) = key.split_once('[').map_or((key, None), |(path, rest)| {
-        (path, Some(rest.trim_end_matches(']').parse::<usize>().unwrap()))
-    });
-    let table: toml::Table = file.to_toml().parse().unwrap();
-    let (group, name) = path.split_once('.').unwrap();
-    let value = &table[group][name]["value"];
-    index.map_or(value, |i| &value[i]).as_float().unwrap()
+    file.get(key).unwrap().value
 }
 
 /// The truth of an identified number. Rotor dynamics: the closed form of the linearised rotor at the mean duty. Cubics and
@@ -170,7 +171,7 @@ fn exact_a_line_one_error_off_scales_the_thrust_coefficient() {
     // with w = c/Σ c² and c = ρ n² D⁴ of each speed.
     let propeller = nominal().propeller.unwrap();
     let unit =
-        |speed: f64| 1.225 * (speed / std::f64::consts::TAU).powi(2) * propeller.diameter_m.value.powi(4);
+        |speed: f64| 1.225 * (speed / std::f64::consts::TAU).powi(2) * propeller.diameter.value.powi(4);
     let sum =
         |f: &dyn Fn(f64) -> f64| -> f64 { measurements.sweep.iter().map(|s| f(unit(s.speed_rad_s))).sum() };
     let weights = sum(&|c| c) / sum(&|c| c * c);
@@ -184,7 +185,7 @@ fn exact_a_line_one_error_off_scales_the_thrust_coefficient() {
     let by_height = line.goodness.standard_deviation / n.sqrt() / slope.value * weights;
     let samples: Vec<PropellerSample> = cells.steady(&measurements.sweep).iter().map(Into::into).collect();
     let scale = PropellerScale {
-        diameter_m: propeller.diameter_m.value,
+        diameter_m: propeller.diameter.value,
         air_density_kg_m3: 1.225,
     };
     let noise = coefficient(&samples, &scale, Quantity::Thrust)
@@ -214,7 +215,7 @@ fn exact_sources_and_standard_errors_say_what_was_identified() {
     let motor = found.file.motor.as_ref().unwrap();
     assert!(
         motor
-            .resistance_ohm
+            .resistance
             .source
             .starts_with("not identified, taken from the nominal file")
     );
@@ -222,12 +223,12 @@ fn exact_sources_and_standard_errors_say_what_was_identified() {
         found
             .file
             .airframe
-            .mass_kg
+            .mass
             .source
             .starts_with("identified: support forces")
     );
-    assert!(found.file.airframe.mass_kg.standard_error.unwrap() > 0.0);
-    let again = VehicleFile::from_toml_str(&found.file.to_toml(), "identified").unwrap();
+    assert!(found.file.airframe.mass.standard_error.unwrap() > 0.0);
+    let again = VehicleFile::parse(&found.file.to_toml(), "identified").unwrap();
     assert_eq!(again, found.file);
 }
 

@@ -174,9 +174,9 @@ fn data_nanobench_specific_force_turned_into_the_world_is_the_captured_accelerat
 /// Moments about x_B and y_B that the vehicle file's rotors give when each pushes with its squared command.
 fn moments(vehicle: &Vehicle, commands: &[f64; 4]) -> [f64; 3] {
     let mut moment = [0.0; 3];
-    for (rotor, c) in vehicle.rotors.iter().zip(commands) {
-        moment[0] -= rotor.position.y * c * c;
-        moment[1] += rotor.position.x * c * c;
+    for ((rotor, hub), c) in vehicle.rotors.iter().zip(vehicle.hubs()).zip(commands) {
+        moment[0] -= hub.y * c * c;
+        moment[1] += hub.x * c * c;
         moment[2] -= rotor.spin.sign() * c * c;
     }
     moment

@@ -15,7 +15,7 @@ const UNSEEN: &str = NANOBENCH[2];
 
 fn base() -> Option<(VehicleFile, Vehicle, sysid::flight::ThrustCurve)> {
     let found = identified()?;
-    let base = VehicleFile::from_toml_str(CRAZYFLIE_TOML, "crazyflie.toml").unwrap();
+    let base = VehicleFile::parse(CRAZYFLIE_TOML, "crazyflie.toml").unwrap();
     let file = vehicle_file(found, &base, "ARPL flights").unwrap();
     let vehicle = Vehicle::from_file(&file, "identified").unwrap();
     Some((file, vehicle, found.thrust.curve()))

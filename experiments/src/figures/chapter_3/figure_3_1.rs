@@ -64,9 +64,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     diagram.line(&[ORIGIN, CENTRE], CONSTRUCTION);
     diagram.text(at(203.0, 274.0), "*r*");
     let arm = vehicle.airframe.arm_length;
-    for i in 0..4 {
-        let hub = vehicle.rotors[i].position / arm;
-        rotor(&mut diagram, &r_wb, hub, geometry.spin[i], i + 1);
+    for (i, hub) in vehicle.hubs().into_iter().enumerate() {
+        rotor(&mut diagram, &r_wb, hub / arm, geometry.spin[i], i + 1);
     }
     axes(
         &mut diagram,

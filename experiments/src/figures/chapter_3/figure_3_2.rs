@@ -108,7 +108,7 @@ fn effects(vehicle: &Vehicle, commands: &[f64; 4]) -> [f64; 4] {
 fn panel(diagram: &mut Diagram, centre: Point, vehicle: &Vehicle, commands: &[f64; 4], name: &str) {
     let largest = commands.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     let place = |i: usize| {
-        let hub = vehicle.rotors[i].position / vehicle.airframe.arm_length;
+        let hub = vehicle.hubs()[i] / vehicle.airframe.arm_length;
         // Forward is up the page, right is right.
         centre.offset(52.0 * hub.y, -52.0 * hub.x)
     };

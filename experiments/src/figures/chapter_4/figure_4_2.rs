@@ -54,8 +54,8 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
         diagram.line(&[a, b, c, a], Look::solid(FAINT, 1.1));
     }
     diagram.polygon(&points.map(|p| page(&p)), BLUE_TINT);
-    for mount in &test.vehicle.rotors {
-        rotor(&mut diagram, &mount.position);
+    for hub in &test.vehicle.hubs() {
+        rotor(&mut diagram, hub);
     }
     let drawn = |p: Vector3<f64>| Vector3::new(EXAGGERATION * p.x, EXAGGERATION * p.y, p.z);
     let (g, c) = (

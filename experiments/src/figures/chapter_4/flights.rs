@@ -88,7 +88,7 @@ fn identify(context: &Context, vehicle: &Vehicle) -> Result<(CrazyflieIdentifica
 pub(super) fn study(context: &Context, name: &str) -> Result<Study, ItemError> {
     let base_vehicle = load_vehicle(context, VEHICLE)?;
     let text = std::fs::read_to_string(context.data(VEHICLE))?;
-    let base = VehicleFile::from_toml_str(&text, VEHICLE)?;
+    let base = VehicleFile::parse(&text, VEHICLE)?;
     let (identified, unseen) = identify(context, &base_vehicle)?;
     let file = vehicle_file(&identified, &base, "identified on the ARPL flights")?;
     let calibrated_on = nanobench(context, FITTED)?;

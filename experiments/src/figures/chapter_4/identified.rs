@@ -42,8 +42,8 @@ impl Found {
         vehicle.linear_rotor.torque_gain = self.gains.torque_gain.value;
         vehicle.pwm.zero_thrust = self.gains.zero_thrust.value;
         vehicle.polynomial_rotor = Some(PolynomialRotorParameters {
-            thrust: self.polynomials.thrust.values(),
-            torque: self.polynomials.torque.values(),
+            thrust: self.polynomials.cubic(Quantity::Thrust),
+            torque: self.polynomials.cubic(Quantity::Torque),
         });
         vehicle
     }

@@ -115,8 +115,7 @@ fn predicted_offset(flight: &Flight) -> Result<f64, ItemError> {
     // Which offset e makes the polynomial carry the weight? Demand per rotor is weight + m ω² e / 4.
     let thrust = |demand: f64| {
         let duty = demand / vehicle.linear_rotor.thrust_gain + vehicle.pwm.zero_thrust - vehicle.pwm.minimum;
-        let x = duty * voltage;
-        ((polynomial[2] * x + polynomial[1]) * x + polynomial[0]) * x
+        polynomial.value(duty * voltage)
     };
     let (mut low, mut high) = (0.0, 2.0 * weight_share);
     for _ in 0..60 {

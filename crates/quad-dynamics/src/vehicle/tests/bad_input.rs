@@ -1,7 +1,8 @@
 //! One test per class of mistake in a vehicle file: the error has the file, the key and the number.
 
 use super::super::builtin::{QBALL_X4_TOML, QBALL_X4_VENDOR_TOML};
-use super::{Vehicle, VehicleError};
+use super::{Vehicle, VehicleError, VehicleFile};
+use provenance::{NOT_STATED, Place, Position, RangeError, ReadError};
 
 const FILE: &str = "broken.toml";
 
@@ -26,32 +27,37 @@ fn with_value(table: &str, key: &str, value: &str) -> VehicleError {
 }
 
 fn assert_out_of_range(error: &VehicleError, expected_key: &str, expected_value: f64) {
-    let VehicleError::OutOfRange {
-        origin, key, value, ..
-    } = error
-    else {
+    let VehicleError::Range { place, key, error } = error else {
         panic!("expected a value out of range, got {error:?}")
     };
+    let RangeError::Outside { value, .. } = **error else {
+        panic!("{error:?}")
+    };
     assert_eq!(
-        (origin.as_str(), key.as_str(), *value),
+        (place.origin.as_str(), key.as_str(), value),
         (FILE, expected_key, expected_value)
     );
+}
+
+fn assert_not_finite(error: &VehicleError, expected_key: &str) {
+    let VehicleError::Range { key, error, .. } = error else {
+        panic!("expected a value that is not finite, got {error:?}")
+    };
+    assert!(matches!(**error, RangeError::NotFinite { .. }), "{error:?}");
+    assert_eq!(key, expected_key);
+}
+
+/// What the text's reader says.
+fn read(error: &VehicleError) -> &ReadError {
+    match error {
+        VehicleError::Read(error) => error,
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]
 fn exact_syntax_error_has_line_and_column() {
     let error = Vehicle::from_toml_str("name = \"x\"\nmass = = 2\n", FILE).expect_err("syntax");
-    assert!(
-        matches!(
-            &error,
-            VehicleError::Syntax {
-                line: 2,
-                column: 8,
-                ..
-            }
-        ),
-        "{error:?}"
-    );
     assert!(
         error.to_string().starts_with("broken.toml:2:8: not valid TOML: "),
         "{error}"
@@ -71,10 +77,7 @@ fn exact_missing_key_names_its_path() {
         let end = at + QBALL_X4_TOML[at..].find('\n').expect("end of line");
         let text = format!("{}{}", &QBALL_X4_TOML[..at], &QBALL_X4_TOML[end..]);
         let error = Vehicle::from_toml_str(&text, FILE).expect_err(expected);
-        assert!(
-            matches!(&error, VehicleError::MissingKey { key, .. } if key == expected),
-            "{error:?}"
-        );
+        assert_eq!(read(&error).key(), Some(expected), "{error:?}");
         assert!(
             error.to_string().contains(&format!("missing key `{expected}`")),
             "{error}"
@@ -82,76 +85,120 @@ fn exact_missing_key_names_its_path() {
     }
 }
 
+/// A number may stand without its source; one warning says so.
 #[test]
-fn exact_missing_source_is_a_missing_key() {
-    let error = broken(
-        "mass_kg = { value = 1.4, source = \"Quanser, vendor's value for the Qball-X4\" }",
-        "mass_kg = { value = 1.4 }",
-    );
+fn exact_plain_numbers_have_no_stated_source() {
+    let stated = "mass_kg = { value = 1.4, source = \"Quanser, vendor's value for the Qball-X4\" }";
+    for plain in ["mass_kg = 1.4", "mass_kg = { value = 1.4 }"] {
+        assert!(QBALL_X4_TOML.contains(stated));
+        let text = QBALL_X4_TOML.replacen(stated, plain, 1);
+        let file = VehicleFile::parse(&text, FILE).expect("plain");
+        assert_eq!(file.airframe.mass.source, NOT_STATED);
+        assert_eq!(file.unstated(), ["airframe.mass_kg"]);
+        let warning = file.unstated_warning().expect("one");
+        assert!(
+            warning.contains("1 numbers without a source: `airframe.mass_kg`"),
+            "{warning}"
+        );
+        assert_eq!(Vehicle::from_file(&file, FILE), Ok(Vehicle::qball_x4()));
+    }
+    let nominal = VehicleFile::parse(QBALL_X4_TOML, FILE).expect("nominal");
+    assert_eq!(nominal.unstated_warning(), None);
+}
+
+/// Every mistake of a file comes at once, each with its place.
+#[test]
+fn exact_all_mistakes_are_reported_at_once() {
+    let text = QBALL_X4_TOML
+        .replacen("mass_kg = ", "mass_g = ", 1)
+        .replacen("diameter_m = { value = 0.254", "diameter_m = { value = 254.0", 1)
+        .replacen("[battery]", "[batery]", 1)
+        .replacen("spin = \"clockwise\"", "spin = \"left\"", 1);
+    let error = Vehicle::from_toml_str(&text, FILE).expect_err("four mistakes");
+    let VehicleError::Several(faults) = &error else {
+        panic!("{error:?}")
+    };
+    let message = error.to_string();
+    for part in [
+        "unknown key `airframe.mass_g`; expected one of mass_kg, inertia_xx_kg_m2",
+        "missing key `airframe.mass_kg`",
+        "`propeller.diameter_m` = 254 m is outside 0.001 to 10 m; is this in inches?",
+        "unknown key `batery`",
+        "`rotors[0].spin`",
+    ] {
+        assert!(message.contains(part), "`{part}` is missing in: {message}");
+    }
+    assert_eq!(faults.len(), 5, "{message}");
     assert!(
-        matches!(&error, VehicleError::MissingKey { key, .. } if key == "airframe.mass_kg.source"),
-        "{error:?}"
+        message
+            .lines()
+            .skip(1)
+            .all(|line| line.starts_with("  broken.toml:")),
+        "{message}"
     );
 }
 
 #[test]
 fn exact_unknown_key_names_its_path_and_line() {
-    let error = broken("mass_kg = ", "mass_g = ");
-    let VehicleError::UnknownKey {
-        key, line, expected, ..
-    } = &error
-    else {
-        panic!("{error:?}")
+    let error = broken("gravity_m_s2 = ", "gravity = 9.81\ngravity_m_s2 = ");
+    let at = QBALL_X4_TOML.find("gravity_m_s2").expect("key");
+    let position = Position {
+        line: QBALL_X4_TOML[..at].matches('\n').count() + 1,
+        column: 1,
     };
-    assert_eq!(key, "airframe.mass_g");
-    assert!(expected.contains("mass_kg"), "{expected}");
-    let at = QBALL_X4_TOML.find("mass_kg").expect("key");
-    assert_eq!(*line, QBALL_X4_TOML[..at].matches('\n').count() + 1);
+    let expected = Place {
+        origin: FILE.to_owned(),
+        position: Some(position),
+    };
+    assert_eq!(
+        (read(&error).key(), read(&error).place()),
+        (Some("environment.gravity"), &expected)
+    );
+    assert!(
+        error
+            .to_string()
+            .ends_with("expected one of gravity_m_s2, air_density_kg_m3"),
+        "{error}"
+    );
     let top = broken("name = \"Qball-X4 (nominal)\"", "name = \"x\"\nwings = 2");
-    assert!(
-        matches!(&top, VehicleError::UnknownKey { key, .. } if key == "wings"),
-        "{top:?}"
-    );
+    assert_eq!(read(&top).key(), Some("wings"));
     let table = broken("[drag]", "[dragg]");
-    assert!(
-        matches!(&table, VehicleError::UnknownKey { key, .. } if key == "dragg"),
-        "{table:?}"
-    );
+    assert_eq!(read(&table).key(), Some("dragg"));
 }
 
 #[test]
 fn exact_wrong_type_names_its_path() {
-    for (value, key) in [
-        ("\"heavy\"", "airframe.mass_kg.value"),
-        ("[1.4]", "airframe.mass_kg.value"),
-    ] {
+    for value in ["\"heavy\"", "[1.4]"] {
         let error = with_value("airframe", "mass_kg", value);
-        assert!(
-            matches!(&error, VehicleError::WrongType { key: found, .. } if found == key),
-            "{error:?}"
-        );
+        assert_eq!(read(&error).key(), Some("airframe.mass_kg.value"), "{error:?}");
     }
     let spin = broken("spin = \"clockwise\"", "spin = \"left\"");
-    assert!(
-        matches!(&spin, VehicleError::WrongType { key, .. } if key == "rotors[0].spin"),
-        "{spin:?}"
-    );
-    let bare = broken(
-        "mass_kg = { value = 1.4, source = \"Quanser, vendor's value for the Qball-X4\" }",
-        "mass_kg = 1.4",
-    );
-    assert!(
-        matches!(&bare, VehicleError::WrongType { key, .. } if key == "airframe.mass_kg"),
-        "{bare:?}"
+    assert_eq!(read(&spin).key(), Some("rotors[0].spin"));
+    let start = QBALL_X4_TOML.find("[drag]").expect("drag");
+    let end = QBALL_X4_TOML.find("[arms]").expect("arms");
+    let text = format!("drag = 3\n{}{}", &QBALL_X4_TOML[..start], &QBALL_X4_TOML[end..]);
+    let group = Vehicle::from_toml_str(&text, FILE).expect_err("a number");
+    assert_eq!(
+        group.to_string(),
+        "broken.toml:1:8: `drag`: found integer, expected a table"
     );
 }
 
 #[test]
 fn exact_empty_source_is_refused() {
     let error = broken("source = \"APC slow flyer 10x4.7, 10 in\"", "source = \"  \"");
-    assert!(
-        matches!(&error, VehicleError::EmptySource { key, .. } if key == "propeller.diameter_m"),
+    assert_eq!(
+        read(&error).key(),
+        Some("propeller.diameter_m.source"),
         "{error:?}"
+    );
+    let mut file = VehicleFile::parse(QBALL_X4_TOML, FILE).expect("nominal");
+    file.airframe.mass.source.clear();
+    let key = "airframe.mass_kg".to_owned();
+    let origin = FILE.to_owned();
+    assert_eq!(
+        Vehicle::from_file(&file, FILE),
+        Err(VehicleError::EmptySource { origin, key })
     );
 }
 
@@ -172,17 +219,11 @@ fn exact_not_finite_is_refused_everywhere() {
         for value in ["nan", "inf", "-inf"] {
             let error = with_value(table, key, value);
             let expected = format!("{table}.{key}");
-            assert!(
-                matches!(&error, VehicleError::NotFinite { key, .. } if *key == expected),
-                "{error:?}"
-            );
+            assert_not_finite(&error, &expected);
         }
     }
     let hub = broken("value = [-0.2, 0.0, 0.0]", "value = [-0.2, nan, 0.0]");
-    assert!(
-        matches!(&hub, VehicleError::NotFinite { key, .. } if key == "rotors[0].hub_position_m[1]"),
-        "{hub:?}"
-    );
+    assert_not_finite(&hub, "rotors[0].hub_position_m[1]");
 }
 
 #[test]
@@ -230,7 +271,12 @@ fn exact_absurd_and_negative_values_are_refused() {
 #[test]
 fn exact_message_names_file_key_value_range_and_hint() {
     let message = with_value("airframe", "mass_kg", "1400.0").to_string();
-    let expected = "broken.toml: `airframe.mass_kg` = 1400 kg is outside 0.001 to 1000 kg; is this in grams?";
+    let line = 1 + QBALL_X4_TOML[..QBALL_X4_TOML.find("mass_kg").expect("key")]
+        .matches('\n')
+        .count();
+    let expected = format!(
+        "broken.toml:{line}:11: `airframe.mass_kg` = 1400 kg is outside 0.001 to 1000 kg; is this in grams?"
+    );
     assert_eq!(message, expected);
 }
 

@@ -67,8 +67,16 @@ fn data_propeller_is_the_fit_to_the_static_table() {
         max_relative = PRINTED
     );
     // Four published digits: 1.616e-5 N s², 2.654e-7 N m s².
-    assert_relative_eq!(propeller.thrust_constant(1.225), 1.616e-5, max_relative = 5e-4);
-    assert_relative_eq!(propeller.torque_constant(1.225), 2.654e-7, max_relative = 5e-4);
+    assert_relative_eq!(
+        propeller.law(1.225).thrust_per_speed_squared,
+        1.616e-5,
+        max_relative = 5e-4
+    );
+    assert_relative_eq!(
+        propeller.law(1.225).torque_per_speed_squared,
+        2.654e-7,
+        max_relative = 5e-4
+    );
 }
 
 #[test]
@@ -121,13 +129,13 @@ fn agree_polynomial_with_the_mechanistic_rotor() {
     let derived = rotor.polynomial_fit(&grid).expect("a grid");
     let file = vehicle.polynomial_rotor.as_ref().expect("group");
     for (file, derived) in [(file.thrust, derived.thrust), (file.torque, derived.torque)] {
-        for (file, derived) in file.iter().zip(derived) {
-            assert_relative_eq!(*file, derived, max_relative = PRINTED);
+        for (file, derived) in file.coefficients().into_iter().zip(derived.coefficients()) {
+            assert_relative_eq!(file, derived, max_relative = PRINTED);
         }
     }
     // The fit's own error at hover, as the file states it: 0.027 N below.
     let x = rotor.duty(hover, voltage) * voltage;
-    let [k1, k2, k3] = file.thrust;
+    let [k1, k2, k3] = file.thrust.coefficients();
     let error = k1 * x + k2 * x.powi(2) + k3 * x.powi(3) - vehicle.hover_thrust_per_rotor();
     assert!((error + 0.027).abs() < 1e-3, "{error}");
 }
@@ -173,14 +181,9 @@ fn exact_cross_checks_of_the_nominal_set() {
     assert!((hover - rad_per_s(4490.0)).abs() < 0.025 * hover, "{hover}");
     // Published 13.4 to 15.7 rad/s for the range of rotor inertia.
     let bandwidth = |rotor_inertia| {
-        SteadyRotor {
-            motor: super::super::MotorParameters {
-                rotor_inertia,
-                ..rotor.motor
-            },
-            ..rotor
-        }
-        .bandwidth(hover)
+        let mut other = rotor;
+        other.rotor.motor.rotor_inertia = rotor_inertia;
+        other.bandwidth(hover)
     };
     assert!((bandwidth(7e-5) - 13.4).abs() < 0.05 && (bandwidth(6e-5) - 15.7).abs() < 0.05);
     // Published 12.4 N.
@@ -227,9 +230,9 @@ fn exact_slope_is_the_difference_quotient() {
 fn exact_cubic_recovers_a_cubic() {
     let cubic = |x: f64| 0.7 * x + 55.0 * x * x - 28.0 * x.powi(3);
     let fit = fit_cubic((1..10).map(|i| f64::from(i) * 0.07).map(|x| (x, cubic(x)))).expect("nine points");
-    for (found, expected) in fit.iter().zip([0.7, 55.0, -28.0]) {
+    for (found, expected) in fit.coefficients().into_iter().zip([0.7, 55.0, -28.0]) {
         // Normal equations of a cubic square its condition number, about 1e3.
-        assert_relative_eq!(*found, expected, max_relative = 1e-9);
+        assert_relative_eq!(found, expected, max_relative = 1e-9);
     }
 }
 
@@ -266,7 +269,7 @@ fn agree_crazyflie_motor_with_its_lag() {
     let hover = rotor.speed_at_thrust(vehicle.hover_thrust_per_rotor());
     assert_relative_eq!(rotor.bandwidth(hover), 1.0 / 0.074, max_relative = PRINTED);
     assert_relative_eq!(
-        rotor.torque_constant / rotor.thrust_constant,
+        rotor.torque_constant() / rotor.thrust_constant(),
         0.005964552,
         max_relative = PRINTED
     );

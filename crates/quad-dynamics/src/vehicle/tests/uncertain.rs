@@ -4,21 +4,26 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::vehicle::file::{Number, Triple};
 use crate::vehicle::uncertain::{DrawError, MOST_TRIES, UncertainVehicle};
-use crate::vehicle::{Vehicle, VehicleFile, builtin};
+use crate::vehicle::{Sourced, Vehicle, VehicleFile, builtin};
+use nalgebra::Vector3;
 
 /// The nominal Qball-X4 with standard errors of a few percent on a mass, a vector and the two terms that are one.
 fn uncertain_file() -> VehicleFile {
-    let mut file = VehicleFile::from_toml_str(builtin::QBALL_X4_TOML, "builtin").unwrap();
-    let with = |number: &mut Number, error: f64| number.standard_error = Some(error);
-    with(&mut file.airframe.mass_kg, 0.02);
-    let vector = |triple: &mut Triple, errors| triple.standard_error = Some(errors);
-    vector(&mut file.airframe.centre_of_mass_m, [0.003, 0.002, 0.0]);
+    let mut file = VehicleFile::parse(builtin::QBALL_X4_TOML, "builtin").unwrap();
+    let with = |number: &mut Sourced<f64>, error: f64| number.standard_error = Some(error);
+    with(&mut file.airframe.mass, 0.02);
+    vector(&mut file.airframe.centre_of_mass, [0.003, 0.002, 0.0]);
     let dynamics = file.rotor_dynamics.as_mut().unwrap();
-    with(&mut dynamics.torque_c2_per_s2, 40.0);
-    with(&mut dynamics.torque_c4_per_s2, 40.0);
+    with(&mut dynamics.torque_c2, 40.0);
+    with(&mut dynamics.torque_c4, 40.0);
     file
+}
+
+fn vector(numbers: &mut Vector3<Sourced<f64>>, errors: [f64; 3]) {
+    for (number, error) in numbers.iter_mut().zip(errors) {
+        number.standard_error = Some(error);
+    }
 }
 
 fn normal(seed: u64) -> impl FnMut() -> f64 {
@@ -47,7 +52,7 @@ fn exact_numbers_with_standard_errors_are_found() {
 /// No standard errors: nothing is uncertain, every draw is the vehicle of the file.
 #[test]
 fn exact_a_file_without_errors_gives_itself() {
-    let file = VehicleFile::from_toml_str(builtin::QBALL_X4_VENDOR_TOML, "builtin").unwrap();
+    let file = VehicleFile::parse(builtin::QBALL_X4_VENDOR_TOML, "builtin").unwrap();
     let vehicle = UncertainVehicle::of(&file, "test").unwrap();
     assert!(vehicle.numbers().is_empty());
     let drawn = vehicle.draw(&mut normal(1)).unwrap();
@@ -69,13 +74,18 @@ fn exact_no_deviation_gives_the_file() {
 fn exact_a_moved_number_goes_through_the_loader() {
     let vehicle = UncertainVehicle::of(&uncertain_file(), "test").unwrap();
     let file = vehicle.file_at(&[2.0]);
-    assert_eq!(file.airframe.centre_of_mass_m.value, [0.006, 0.0, 0.0]);
-    assert!(file.airframe.centre_of_mass_m.source.starts_with("moved within"));
-    assert_eq!(file.airframe.centre_of_mass_m.standard_error, None);
-    assert_eq!(file.airframe.mass_kg, uncertain_file().airframe.mass_kg);
+    let centre = &file.airframe.centre_of_mass;
+    assert_eq!(centre.map(|number| number.value), Vector3::new(0.006, 0.0, 0.0));
+    assert!(centre.x.source.starts_with("moved within"));
+    assert_eq!(centre.x.standard_error, None);
+    let nominal = uncertain_file().airframe;
+    assert_eq!(
+        (&file.airframe.mass, &centre.y),
+        (&nominal.mass, &nominal.centre_of_mass.y)
+    );
     let (moved, nominal) = (vehicle.at(&[2.0]).unwrap(), vehicle.nominal());
-    for (moved, nominal) in moved.rotors.iter().zip(&nominal.rotors) {
-        assert_eq!(moved.position.x, nominal.position.x - 0.006);
+    for (moved, nominal) in moved.hubs().iter().zip(&nominal.hubs()) {
+        assert_eq!(moved.x, nominal.x - 0.006);
     }
 }
 
@@ -90,11 +100,7 @@ fn exact_terms_that_are_one_move_together() {
     assert!((dynamics.torque_c2 / dynamics.torque_c4 - 1.0).abs() < 1e-15);
     // The same where only the other one has an error.
     let mut file = uncertain_file();
-    file.rotor_dynamics
-        .as_mut()
-        .unwrap()
-        .torque_c4_per_s2
-        .standard_error = None;
+    file.rotor_dynamics.as_mut().unwrap().torque_c4.standard_error = None;
     let vehicle = UncertainVehicle::of(&file, "test").unwrap();
     assert_eq!(vehicle.numbers()[4].key, "rotor_dynamics.torque_c2_per_s2");
     assert!(vehicle.at(&[0.0, 0.0, 0.0, 0.0, 1.0]).is_ok());
@@ -104,13 +110,13 @@ fn exact_terms_that_are_one_move_together() {
 #[test]
 fn exact_rotors_are_named() {
     let mut file = uncertain_file();
-    file.rotors[2].hub_position_m.standard_error = Some([0.0, 0.0, 0.001]);
+    vector(&mut file.rotors[2].hub_position, [0.0, 0.0, 0.001]);
     let vehicle = UncertainVehicle::of(&file, "test").unwrap();
     let key = "rotors.left.hub_position_m.z";
     let k = vehicle.numbers().iter().position(|n| n.key == key).unwrap();
     let deviations: Vec<f64> = (0..=k).map(|i| if i == k { -1.0 } else { 0.0 }).collect();
     let moved = vehicle.at(&deviations).unwrap();
-    assert_eq!(moved.rotors[2].position.z, -0.001);
+    assert_eq!(moved.hubs()[2].z, -0.001);
 }
 
 /// Mean p̂, variance σ², no correlation. Of n normal draws the mean errs by σ/√n, the variance by σ² √(2/n), the
@@ -154,7 +160,7 @@ fn exact_a_seed_gives_the_same_vehicle() {
 #[test]
 fn exact_what_is_no_vehicle_is_drawn_again() {
     let mut file = uncertain_file();
-    file.airframe.mass_kg.standard_error = Some(2.0);
+    file.airframe.mass.standard_error = Some(2.0);
     let vehicle = UncertainVehicle::of(&file, "test").unwrap();
     let mut normal = normal(5);
     let mut asked = 0;

@@ -162,9 +162,9 @@ impl RotorSpread {
             motor: Motor {
                 velocity_constant: nominal.motor.velocity_constant * factor(self.velocity_constant),
                 resistance: nominal.motor.resistance * factor(self.resistance),
+                rotor_inertia: nominal.motor.rotor_inertia * factor(self.inertia),
                 ..nominal.motor
             },
-            inertia: nominal.inertia * factor(self.inertia),
             ..*nominal
         }
     }

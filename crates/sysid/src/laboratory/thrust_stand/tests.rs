@@ -27,7 +27,7 @@ fn agree_steady_readings_with_the_closed_form() {
         let thrust = steady.thrust(sample.duty - 0.05, sample.battery_voltage_v);
         // Two closed forms of one root: rounding.
         assert_relative_eq!(sample.thrust_n, thrust, max_relative = 1e-10);
-        let torque = thrust * steady.torque_constant / steady.thrust_constant;
+        let torque = thrust * steady.torque_constant() / steady.thrust_constant();
         assert_relative_eq!(sample.torque_n_m, torque, max_relative = 1e-9, epsilon = 1e-15);
     }
 }
@@ -50,7 +50,8 @@ fn prop_angular_momentum_of_a_step() {
         .windows(2)
         .map(|p| 0.5 * (net(&p[0]) + net(&p[1])) * (p[1].time_s - p[0].time_s))
         .sum();
-    let gained = stand.rotor.inertia * (samples[samples.len() - 1].speed_rad_s - samples[0].speed_rad_s);
+    let gained =
+        stand.rotor.motor.rotor_inertia * (samples[samples.len() - 1].speed_rad_s - samples[0].speed_rad_s);
     assert!(gained > 0.0);
     // Trapezoidal rule: h²/12 times the jump of the integrand's slope, (1e-4 s)² · (100/s)/0.1 s, below 1e-5 of the whole.
     assert_relative_eq!(impulse, gained, max_relative = 1e-5);

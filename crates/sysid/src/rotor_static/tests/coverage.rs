@@ -75,18 +75,17 @@ fn readings(
 #[test]
 fn prop_coverage_of_the_polynomials() {
     let rotor = qball().polynomial_rotor.unwrap();
-    let cubic_of = |[k1, k2, k3]: [f64; 3]| Cubic { k1, k2, k3 };
-    let (thrust, torque) = (cubic_of(rotor.thrust), cubic_of(rotor.torque));
+    let (thrust, torque) = (rotor.thrust, rotor.torque);
     let (duties, voltages) = (evenly(0.055, 0.095, 15), [9.9, 11.1, 12.6]);
     let of = |cubic: Cubic<f64>| move |duty: f64, volt: f64| cubic.value((duty - 0.05) * volt);
     assert_covered(|seed| {
         let samples = readings(seed, &duties, &voltages, of(thrust), of(torque));
-        let judged = |quantity, names: [&'static str; 3], truth: [f64; 3]| {
+        let judged = |quantity, names: [&'static str; 3], truth: Cubic<f64>| {
             let fit = polynomial(&samples, 0.05, quantity).unwrap();
             (0..3).map(move |i| Judged {
                 name: names[i],
                 estimate: fit.parameters[i],
-                truth: truth[i],
+                truth: truth.coefficients()[i],
             })
         };
         judged(Quantity::Thrust, ["k_T1", "k_T2", "k_T3"], rotor.thrust)

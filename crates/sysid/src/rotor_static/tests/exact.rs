@@ -114,7 +114,7 @@ fn agree_with_the_vehicle_files_derivation() {
         (Quantity::Torque, derived.torque),
     ] {
         let fit = polynomial(&samples, 0.05, quantity).unwrap();
-        for (value, term) in fit.values().into_iter().zip(terms) {
+        for (value, term) in fit.values().into_iter().zip(terms.coefficients()) {
             // Singular values here, normal equations there: 1e-16 times the squared condition number, 1e5.
             assert_relative_eq!(value, term, max_relative = 1e-9);
         }
