@@ -103,7 +103,7 @@ mod tests {
     fn rule() -> LevelRule {
         LevelRule {
             near: "station".into(),
-            fine: Level::Five.into(),
+            fine: Level::HIGHEST.into(),
             coarse: Level::Two.into(),
             fine_within_m: 2.0,
             coarse_beyond_m: 3.0,

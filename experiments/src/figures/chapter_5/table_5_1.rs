@@ -27,18 +27,10 @@ const BUILT: Claim = Claim::holds(
 
 fn draw(context: &Context) -> Result<Drawing, ItemError> {
     let vehicle = load_vehicle(context, NOMINAL_VEHICLE)?;
-    let header = [
-        "Phenomenon",
-        "Adds to the resolution",
-        "Needs",
-        "1",
-        "2",
-        "3",
-        "4",
-        "5",
-        "Source",
-    ];
-    let mut shown = DisplayTable::new(header);
+    let numbers = Level::ALL.map(|level| level.number().to_string());
+    let before = ["Phenomenon", "Adds to the resolution", "Needs"];
+    let header = before.into_iter().chain(numbers.iter().map(String::as_str));
+    let mut shown = DisplayTable::new(header.chain(["Source"]));
     let mut data = DataTable::new([
         "phenomenon",
         "contribution",
@@ -49,48 +41,30 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     ]);
     let (mut tried, mut agreed) = (0, 0);
     for phenomenon in Phenomenon::ALL {
-        let fits = Level::ALL.map(|level| {
-            // What needs drag is asked for together with drag.
-            let asked = PhenomenonSet::none().with(Phenomenon::Drag).with(phenomenon);
-            asked.admitted_by(level.capabilities()).contains(phenomenon)
-        });
-        for (level, declared) in Level::ALL.into_iter().zip(fits) {
+        let row = Row {
+            name: phenomenon.name(),
+            adds: phenomenon.contribution(),
+            needs: phenomenon.prerequisite(),
+            source: phenomenon.source(),
+            fits: Level::ALL.map(|level| {
+                // What needs drag is asked for together with drag.
+                let asked = PhenomenonSet::none().with(Phenomenon::Drag).with(phenomenon);
+                asked.admitted_by(level.capabilities()).contains(phenomenon)
+            }),
+            own: Level::ALL.map(|level| level.phenomena().contains(phenomenon)),
+        };
+        for (level, declared) in Level::ALL.into_iter().zip(row.fits) {
             let mut on = PhenomenonSet::none().with(phenomenon);
-            if declared && level != Level::One {
+            if declared && level != Level::LOWEST {
                 on = on.with(Phenomenon::Drag);
             }
             let built = AnyQuadrotor::<f64>::hovering(level, &vehicle, &on, Vector3::zeros(), 0.0).is_ok();
             tried += 1;
             agreed += u32::from(built == declared);
         }
-        let by_itself = Level::ALL.map(|level| level.phenomena().contains(phenomenon));
-        let mark = |i: usize| match (by_itself[i], fits[i]) {
-            (true, _) => "●",
-            (false, true) => "○",
-            (false, false) => "",
-        };
-        let prerequisite = phenomenon.prerequisite().to_string();
-        shown.push([
-            phenomenon.name(),
-            phenomenon.contribution(),
-            &prerequisite,
-            mark(0),
-            mark(1),
-            mark(2),
-            mark(3),
-            mark(4),
-            phenomenon.source(),
-        ]);
-        data.push([
-            phenomenon.name().into(),
-            phenomenon.contribution().into(),
-            prerequisite.as_str().into(),
-            numbers(&fits).as_str().into(),
-            numbers(&by_itself).as_str().into(),
-            phenomenon.source().into(),
-        ]);
+        row.write(&mut shown, &mut data);
     }
-    wind(&mut shown, &mut data);
+    wind().write(&mut shown, &mut data);
     Ok(Drawing::table(shown).data(data).check(
         BUILT,
         agreed == tried,
@@ -98,43 +72,58 @@ fn draw(context: &Context) -> Result<Drawing, ItemError> {
     ))
 }
 
+/// The mean wind and its steps: no part of a model, but an input that models with drag feel.
+fn wind() -> Row {
+    let drag = PhenomenonSet::none().with(Phenomenon::Drag);
+    Row {
+        name: "wind and its steps (input)",
+        adds: "mean velocity of the air, constant or stepping",
+        needs: Prerequisite::AirRelativeDrag,
+        source: "thesis 3.7",
+        fits: Level::ALL.map(|level| drag.admitted_by(level.capabilities()) == drag),
+        own: Level::ALL.map(|level| level.phenomena().contains(Phenomenon::Drag)),
+    }
+}
+
+/// One answer for each level.
+type PerLevel = [bool; Level::ALL.len()];
+
+/// A phenomenon, and at which levels it is.
+struct Row {
+    name: &'static str,
+    adds: &'static str,
+    needs: Prerequisite,
+    source: &'static str,
+    /// Whether the level can have it.
+    fits: PerLevel,
+    /// Whether the level has it by itself.
+    own: PerLevel,
+}
+
+impl Row {
+    fn write(&self, shown: &mut DisplayTable, data: &mut DataTable) {
+        let needs = self.needs.to_string();
+        let marks = self.own.iter().zip(&self.fits).map(|pair| match pair {
+            (true, _) => "●",
+            (false, true) => "○",
+            (false, false) => "",
+        });
+        let before = [self.name, self.adds, &needs];
+        shown.push(before.into_iter().chain(marks).chain([self.source]));
+        data.push([
+            self.name.into(),
+            self.adds.into(),
+            needs.as_str().into(),
+            numbers(&self.fits).as_str().into(),
+            numbers(&self.own).as_str().into(),
+            self.source.into(),
+        ]);
+    }
+}
+
 /// The levels of a list as text, `2 3 4`.
-fn numbers(of: &[bool; 5]) -> String {
+fn numbers(of: &PerLevel) -> String {
     let chosen = Level::ALL.iter().zip(of).filter(|(_, is)| **is);
     let numbers: Vec<String> = chosen.map(|(level, _)| level.number().to_string()).collect();
     numbers.join(" ")
-}
-
-/// The mean wind and its steps: no part of a model, but an input that models with drag feel.
-fn wind(shown: &mut DisplayTable, data: &mut DataTable) {
-    const NAME: &str = "wind and its steps (input)";
-    const ADDS: &str = "mean velocity of the air, constant or stepping";
-    let needs = Prerequisite::AirRelativeDrag.to_string();
-    let drag = PhenomenonSet::none().with(Phenomenon::Drag);
-    let fits = Level::ALL.map(|level| drag.admitted_by(level.capabilities()) == drag);
-    let by_itself = Level::ALL.map(|level| level.phenomena().contains(Phenomenon::Drag));
-    let mark = |i: usize| match (by_itself[i], fits[i]) {
-        (true, _) => "●",
-        (false, true) => "○",
-        (false, false) => "",
-    };
-    shown.push([
-        NAME,
-        ADDS,
-        &needs,
-        mark(0),
-        mark(1),
-        mark(2),
-        mark(3),
-        mark(4),
-        "thesis 3.7",
-    ]);
-    data.push([
-        NAME.into(),
-        ADDS.into(),
-        needs.as_str().into(),
-        numbers(&fits).as_str().into(),
-        numbers(&by_itself).as_str().into(),
-        "thesis 3.7".into(),
-    ]);
 }
