@@ -5,10 +5,11 @@ use nalgebra::Vector3;
 use std::error::Error;
 use std::fs::File;
 use std::io::{self, Read};
+use std::ops::ControlFlow;
 use std::path::Path;
 use sysid::centre_of_mass::Placing;
 use sysid::load_cell::Sample;
-use sysid::measurement::{Column, Layout, Table, read};
+use sysid::measurement::{Column, Layout, Table, read, scan};
 use sysid::pendulum::AngleSample;
 use sysid::recorded::InertialLog;
 use sysid::rotor_dynamics::DynamicSample;
@@ -174,20 +175,91 @@ pub(crate) struct Recorded {
     pub(crate) voltage: Option<Vec<f64>>,
 }
 
-/// A flight from a CSV file, its commands as raw duty.
-pub(crate) fn flight(path: &Path, answer: &mut Answer) -> Result<Recorded, Box<dyn Error>> {
-    let table = table(path, &Layout::timed(&FLIGHT, LONGEST_STEP_S), answer)?;
-    let vector = |first: usize, k: usize| Vector3::from_fn(|axis, _| table.column(first + axis)[k]);
-    let rows = 0..table.rows();
-    let log = InertialLog {
-        time: table.column(0).to_vec(),
-        specific_force: rows.clone().map(|k| vector(1, k)).collect(),
-        body_rates: rows.clone().map(|k| vector(4, k)).collect(),
-        commands: rows
-            .map(|k| std::array::from_fn(|i| table.column(7 + i)[k]))
-            .collect(),
+/// The part of a flight that is kept, s on the file's clock.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part {
+    from_s: f64,
+    to_s: f64,
+}
+
+/// What is kept before the part and after it, s: the lag's memory of what was before is a hundred of its time constants long at most.
+const MARGIN_S: f64 = 10.0;
+
+/// Most rows of a part: half an hour at 1 kHz, 0.2 GB.
+const MOST_ROWS: usize = 2_000_000;
+
+impl Part {
+    /// From one time to another, s, with what is to be known around them; all where there is none.
+    pub(crate) fn of(from_s: Option<f64>, to_s: Option<f64>) -> Self {
+        Self {
+            from_s: from_s.map_or(f64::NEG_INFINITY, |from_s| from_s - MARGIN_S),
+            to_s: to_s.map_or(f64::INFINITY, |to_s| to_s + MARGIN_S),
+        }
+    }
+
+    /// Whether a row at this time, s, is kept beside so many others; a break where none is from here on.
+    ///
+    /// # Errors
+    /// More rows than are kept.
+    pub(crate) fn keeps(&self, time_s: f64, others: usize) -> ControlFlow<Result<(), String>, bool> {
+        if time_s > self.to_s {
+            return ControlFlow::Break(Ok(()));
+        }
+        if time_s < self.from_s {
+            return ControlFlow::Continue(false);
+        }
+        if others >= MOST_ROWS {
+            return ControlFlow::Break(Err(format!(
+                "the part has more than {MOST_ROWS} rows: choose a shorter one with --from and --to"
+            )));
+        }
+        ControlFlow::Continue(true)
+    }
+}
+
+/// The part of a flight from a CSV file, its commands as raw duty. Rows outside it are read and checked, not held; those after it are not read.
+pub(crate) fn flight(path: &Path, part: Part, answer: &mut Answer) -> Result<Recorded, Box<dyn Error>> {
+    let named = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
+    let mut log = InertialLog {
+        time: Vec::new(),
+        specific_force: Vec::new(),
+        body_rates: Vec::new(),
+        commands: Vec::new(),
         remarks: Vec::new(),
     };
-    let voltage = Some(table.column(11).to_vec());
-    Ok(Recorded { log, voltage })
+    let (mut voltage, mut end) = (Vec::new(), Ok(()));
+    let mut seen: Option<(f64, f64)> = None;
+    let layout = Layout::timed(&FLIGHT, LONGEST_STEP_S);
+    let scan = scan(open(path).map_err(|e| named(&e))?, &layout, |row| {
+        let v = row.values;
+        seen = Some((seen.map_or(v[0], |(first, _)| first), v[0]));
+        match part.keeps(v[0], log.time.len()) {
+            ControlFlow::Break(why) => {
+                end = why;
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(false) => return ControlFlow::Continue(()),
+            ControlFlow::Continue(true) => {}
+        }
+        log.time.push(v[0]);
+        log.specific_force.push(Vector3::new(v[1], v[2], v[3]));
+        log.body_rates.push(Vector3::new(v[4], v[5], v[6]));
+        log.commands.push([v[7], v[8], v[9], v[10]]);
+        voltage.push(v[11]);
+        ControlFlow::Continue(())
+    })
+    .map_err(|e| named(&e))?;
+    end.map_err(|why| named(&why))?;
+    answer
+        .warnings
+        .extend(scan.remarks.iter().map(|remark| named(remark)));
+    if log.time.is_empty() {
+        let (first, last) = seen.unwrap_or_default();
+        let why = format!("no row is within --from and --to; rows read have times from {first} to {last} s");
+        return Err(named(&why).into());
+    }
+    Ok(Recorded {
+        log,
+        voltage: Some(voltage),
+    })
 }

@@ -2,7 +2,7 @@
 
 use super::Done;
 use crate::arguments::{Common, Flown};
-use crate::input::Recorded;
+use crate::input::{Part, Recorded};
 use crate::output::Answer;
 use crate::{input, plot, ulog, vehicle};
 use quad_dynamics::Vehicle;
@@ -61,12 +61,13 @@ fn log(
         .data
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("ulg"));
+    let part = Part::of(flown.from, flown.to);
     let mut recorded = if is_ulog {
         let motors = <[usize; 4]>::try_from(flown.motors.as_slice())
             .map_err(|_| "--motors needs four numbers, as in 1,2,3,4")?;
-        ulog::flight(&common.data, &motors, answer)?
+        ulog::flight(&common.data, &motors, part, answer)?
     } else {
-        let mut recorded = input::flight(&common.data, answer)?;
+        let mut recorded = input::flight(&common.data, part, answer)?;
         shares(&mut recorded.log, vehicle)?;
         recorded
     };

@@ -13,13 +13,14 @@
 
 mod structure;
 
-use crate::input::Recorded;
+use crate::input::{Part, Recorded};
 use crate::output::Answer;
 use nalgebra::Vector3;
 use px4_ulog::stream_parser::{DataMessage, Message, SimpleCallbackResult, read_file_with_simple_callback};
 use std::error::Error;
 use std::fs::File;
 use std::io::BufReader;
+use std::ops::ControlFlow;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use sysid::recorded::InertialLog;
@@ -31,6 +32,7 @@ const SECONDS: f64 = 1e-6;
 pub(crate) fn flight(
     path: &Path,
     motors: &[usize; 4],
+    part: Part,
     answer: &mut Answer,
 ) -> Result<Recorded, Box<dyn Error>> {
     let name = path.display();
@@ -41,13 +43,16 @@ pub(crate) fn flight(
         return Err(named("a ULog is read twice, so it must be a file, not a stream".to_owned()).into());
     }
     structure::check(BufReader::new(file)).map_err(named)?;
-    let mut gathered = Gathered::new(motors);
+    let mut gathered = Gathered::new(motors, part);
     let end = caught(|| {
         read_file_with_simple_callback(text, &mut |message| {
             if let Message::Data(data) = message {
                 gathered.take(data);
             }
-            SimpleCallbackResult::KeepReading
+            match gathered.end {
+                None => SimpleCallbackResult::KeepReading,
+                Some(_) => SimpleCallbackResult::Stop,
+            }
         })
     });
     let is_damaged = match end {
@@ -58,6 +63,9 @@ pub(crate) fn flight(
         answer.warnings.push(format!(
             "{name}: the log is cut off or damaged; the part before is used"
         ));
+    }
+    if let Some(Err(why)) = &gathered.end {
+        return Err(named(why.clone()).into());
     }
     if gathered.backwards > 0 {
         answer.warnings.push(format!(
@@ -80,6 +88,9 @@ fn caught<T>(read: impl FnOnce() -> T) -> Option<T> {
 
 /// What has been read.
 struct Gathered {
+    part: Part,
+    /// Why no more is read.
+    end: Option<Result<(), String>>,
     fields: [String; 4],
     commands: Option<[f64; 4]>,
     voltage: Option<f64>,
@@ -91,8 +102,10 @@ struct Gathered {
 }
 
 impl Gathered {
-    fn new(motors: &[usize; 4]) -> Self {
+    fn new(motors: &[usize; 4], part: Part) -> Self {
         Self {
+            part,
+            end: None,
             fields: motors.map(|number| format!("control[{}]", number.saturating_sub(1))),
             commands: None,
             voltage: None,
@@ -137,6 +150,14 @@ impl Gathered {
         if self.log.time.last().is_some_and(|last| *last >= time) {
             self.backwards += 1;
             return;
+        }
+        match self.part.keeps(time, self.log.time.len()) {
+            ControlFlow::Break(why) => {
+                self.end.get_or_insert(why);
+                return;
+            }
+            ControlFlow::Continue(false) => return,
+            ControlFlow::Continue(true) => {}
         }
         self.log.time.push(time);
         self.log.specific_force.push(force);

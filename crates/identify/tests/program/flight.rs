@@ -160,7 +160,7 @@ fn exact_bad_flights_are_refused() {
     let known = ["--vehicle", NOMINAL];
     assert!(refusal("a.csv", csv.as_bytes(), &[]).contains("--vehicle"));
     let late = [&known[..], &["--from", "100"]].concat();
-    assert!(refusal("b.csv", csv.as_bytes(), &late).contains("0 samples"));
+    assert!(refusal("b.csv", csv.as_bytes(), &late).contains("no row is within --from and --to"));
     let percent = csv.replace(",0.07", ",0.7");
     assert!(refusal("c.csv", percent.as_bytes(), &known).contains("PWM range"));
     assert!(refusal("d.ulg", csv.as_bytes(), &known).contains("d.ulg"));

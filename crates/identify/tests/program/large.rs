@@ -49,3 +49,57 @@ fn exact_a_large_stream_is_identified_in_bounded_memory() {
         None => println!("this system does not tell the memory of a process: only the result was tested"),
     }
 }
+
+/// A log of eight hours of which sixteen seconds are asked for: what follows is neither held nor read to its end.
+#[test]
+fn exact_a_part_of_a_long_log_gives_what_its_own_file_gives() {
+    let template = super::identify(&["template", "flight"]);
+    let short = String::from_utf8(template.stdout).unwrap();
+    let data = super::file("part.csv", short.as_bytes());
+    let flight = |path: &str| {
+        let part = [
+            "--from",
+            "1.5",
+            "--to",
+            "15",
+            "--json",
+            "--vehicle",
+            super::NOMINAL,
+        ];
+        let mut command = Command::new(env!("CARGO_BIN_EXE_identify"));
+        command.args([&["flight", path], &part[..]].concat());
+        command
+    };
+    let alone = flight(data.to_str().unwrap()).output().unwrap();
+    assert_eq!(alone.status.code(), Some(0), "{}", super::said(&alone));
+
+    let mut child = flight("-")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    input.write_all(short.as_bytes()).unwrap();
+    let mut sent = 0;
+    // 100 rows a second; the program closes the pipe 10 s after the part.
+    for k in 1..2_880_000 {
+        let time_s = 16.0 + 0.01 * f64::from(k);
+        let row = format!("{time_s:.2},0,0,-9.8,0,0,0,0.074,0.075,0.075,0.074,10.3\n");
+        if input.write_all(row.as_bytes()).is_err() {
+            break;
+        }
+        sent += row.len();
+    }
+    drop(input);
+    let output = child.wait_with_output().unwrap();
+    assert!(sent < 10_000_000, "{sent} bytes were taken");
+    for key in [
+        "airframe.inertia_xx_kg_m2",
+        "linear_rotor.thrust_gain_n",
+        "motor lag",
+    ] {
+        let ((a, _), (b, _)) = (super::number(&alone, key), super::number(&output, key));
+        // The rows behind the part are within the margin that is kept; the fit looks at the part alone.
+        assert!((a / b - 1.0).abs() < 1e-6, "{key}: {a} and {b}");
+    }
+}
