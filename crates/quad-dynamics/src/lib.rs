@@ -106,6 +106,10 @@ mod tests;
 mod trim;
 pub mod vehicle;
 
+/// What the interface is made of, in the version that fits.
+#[doc(no_inline)]
+pub use {nalgebra, quad_math, quad_rotor};
+
 pub use blockage::Blockage;
 pub use drag::Drag;
 pub use dryden::{

@@ -90,6 +90,10 @@ pub mod settling;
 pub mod stability;
 mod trajectory;
 
+/// The models that are controlled, in the version that fits.
+#[doc(no_inline)]
+pub use quad_dynamics;
+
 pub use any::InCharge;
 pub use closed_loop::{
     Airborne, ClosedLoop, Feedback, FlightLog, FlightPlan, FlightStatus, Flyer, Plant, Record,

@@ -98,6 +98,10 @@ mod speed;
 pub mod steps;
 mod target;
 
+/// Controllers and, below them, models, in the version that fits.
+#[doc(no_inline)]
+pub use quad_ndi;
+
 pub use crate::ets::{Ets, EtsSetup, GimballedEts, IdealEts};
 pub use agent::{
     Agent, AgentId, Directory, FARTHEST_M, Invalid, Member, MemoryError, Moment, Published,
