@@ -7,7 +7,7 @@
 //! | write a file as a run proceeds, alone | [`open_alone`], [`continue_alone`], [`lock_folder`] |
 //! | know before a long run that a file can be written | [`can_be_written`] |
 //! | read a file that may be larger than memory, or endless | [`read_text`], [`Bounded`] |
-//! | print to a stream that may be closed or full | [`print`] |
+//! | print to a stream that may be closed or full | [`print()`] |
 //! | print text that came from a file | [`escaped`], [`message`], [`is_printable`] |
 //! | notice that a line or a file was changed | [`checksum`] |
 //!
